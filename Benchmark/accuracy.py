@@ -9,7 +9,6 @@ without a fit are those of marching tetrahedra on the Delaunay tetrahedralizatio
 grid of marching cubes has as many nodes as there are samples, with exact values but for noise.
 """
 
-import argparse
 import time
 
 import analytic_surfaces as surfaces
@@ -40,10 +39,7 @@ def marching_cubes(nodes, isovalue):
     """Contours the nodes of a lattice, z fastest."""
     side = round(nodes.GetNumberOfPoints() ** (1 / 3))
     values = vtk_to_numpy(nodes.GetPointData().GetScalars()).reshape(3 * [side])
-    grid = vtkImageData()
-    grid.SetDimensions(3 * [side])
-    grid.SetSpacing(3 * [2 / (side - 1)])
-    grid.SetOrigin(-1, -1, -1)
+    grid = common.set_all(vtkImageData(), Dimensions=3 * [side], Spacing=3 * [2 / (side - 1)], Origin=(-1, -1, -1))
     grid.GetPointData().SetScalars(numpy_to_vtk(values.T.ravel(), deep=True))
     return common.output_of(vtkFlyingEdges3D(), grid, isovalue)
 
@@ -81,25 +77,11 @@ def main(options):
             print_row([field, "grid", f"{percent:g}", "marching cubes"], grid, marching_cubes)
 
 
-def names_of(known):
-    """An option's value: names among those that are known, separated by commas."""
-    def parse(text):
-        names = text.split(",")
-        unknown = set(names) - set(known)
-        if unknown:
-            raise argparse.ArgumentTypeError(f"there is no {', '.join(sorted(unknown))} among {', '.join(known)}")
-        return names
-
-    return parse
-
-
 if __name__ == "__main__":
     parser = common.parser_of(__doc__)
     common.add_numbers(parser, samples=64000)
     for name, known in (("--fields", FIELDS), ("--samplings", SAMPLINGS)):
-        parser.add_argument(name, type=names_of(known), default=known, metavar="A,...",
-                            help=", ".join(known) + "; default: all")
-    parser.add_argument("--noise", default=(0.0, 1.0, 5.0), metavar="A,...",
-                        type=lambda text: [float(number) for number in text.split(",")],
-                        help="percents of the field's standard deviation; default: 0,1,5")
+        parser.add_argument(name, nargs="+", choices=known, default=known, help="default: all")
+    parser.add_argument("--noise", nargs="+", type=float, default=(0.0, 1.0, 5.0),
+                        help="percents of the field's standard deviation; default: 0 1 5")
     main(parser.parse_args())

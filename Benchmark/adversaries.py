@@ -136,7 +136,7 @@ CLOUDS = {
 def measure(cloud):
     """The faster of two updates of new filters, and the number of isopoints."""
     positions, values = cloud if isinstance(cloud, tuple) else (cloud, distance(cloud))
-    data = common.cloud(positions.astype(np.float32), values.astype(np.float32))
+    data = common.cloud_of(positions.astype(np.float32), values.astype(np.float32))
     seconds = []
     for _ in range(2):
         isopoints = common.configured(common.POINTS(), data, ISOVALUE)

@@ -3,16 +3,21 @@
 
 import argparse
 import ctypes
+import pathlib
 import sys
 import time
 
 import numpy as np
 from scatteredisopoints import vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints, vtkSMPTools
-from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkPolyData
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkSMPTools
+from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
 from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 from vtkmodules.vtkIOXML import vtkXMLGenericDataObjectReader
+
+for folder in ("Python", "Rendering", "ParaView"):
+    sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "Testing" / folder))
+from vtk_data import cloud_of, leaves_of, named, positions_in, set_all  # noqa: E402, F401
 
 POINTS, TRIANGLES = vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
 SIDE, RADIUS, OTHER_RADIUS = 200.0, 70.0, 69.9  # of a cube, and isovalues of the distance to its center
@@ -54,17 +59,6 @@ def name_of(path):
     return path.rsplit("/", 1)[-1]
 
 
-def cloud(positions, values, name="values"):
-    points = vtkPoints()
-    points.SetData(numpy_to_vtk(np.ascontiguousarray(positions), deep=True))
-    samples = vtkPolyData()
-    samples.SetPoints(points)
-    scalars = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
-    scalars.SetName(name)
-    samples.GetPointData().SetScalars(scalars)
-    return samples
-
-
 def uniform(count, random):
     return np.float32(SIDE) * (random.random((count, 3), dtype=np.float32) - np.float32(0.5))
 
@@ -96,20 +90,10 @@ def read(path):
     return data
 
 
-def leaves_of(data):
-    if not isinstance(data, vtkCompositeDataSet):
-        return [data]
-    iterator, leaves = data.NewIterator(), []
-    while not iterator.IsDoneWithTraversal():
-        leaves.append(iterator.GetCurrentDataObject())
-        iterator.GoToNextItem()
-    return leaves
-
-
 def positions_of(data):
     if hasattr(data, "GetPoints") and data.GetPoints():
         return vtk_to_numpy(data.GetPoints().GetData()).astype(float)
-    return np.array([data.GetPoint(i) for i in range(data.GetNumberOfPoints())])
+    return positions_in(data)
 
 
 def configured(algorithm, data, isovalue=None, **properties):

@@ -21,7 +21,7 @@ common.print_head("million samples", "filter", "points or triangles", "seconds",
                   "seconds at another isovalue", "MB")
 for millions in options.samples:
     positions, values = common.sphere(int(1e6 * millions), 0)
-    samples = common.cloud(positions, values.astype(np.float32))
+    samples = common.cloud_of(positions, values.astype(np.float32))
     for name, kind in (("points", common.POINTS), ("triangles", common.TRIANGLES)):
         rows = []
         for _ in range(options.runs):

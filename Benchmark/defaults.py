@@ -47,11 +47,11 @@ common.add_numbers(parser, threads=2, runs=2, samples=[1.0, 4.0, 16.0])
 common.add_files(parser, "IMAGE.vti", "ISOVALUE", "OTHER")
 options = parser.parse_args()
 common.set_threads(options.threads)
-common.print_head("cloud", "samples", "points", "seconds", "vertices of triangles", "seconds", "seconds of points alone",
-                  "seconds of VTK")
+common.print_head("cloud", "samples", "points", "seconds", "vertices of triangles", "seconds",
+                  "seconds of points alone", "seconds of VTK")
 for millions in options.samples:
     for name, positions, values in common.spheres(millions):
-        samples = common.cloud(positions, values.astype(np.float32))
+        samples = common.cloud_of(positions, values.astype(np.float32))
         add_row(name, samples, (common.RADIUS, common.OTHER_RADIUS), options)
 for path, *isovalues in options.file:
     add_row(common.name_of(path), common.read(path), [float(value) for value in isovalues], options)

@@ -60,7 +60,7 @@ class AnalyticSet:
             nearest, normals = surface.feet(points)
             return surfaces.length(points - nearest) / spacing, normals
 
-        return Draw(common.cloud(positions, values), surface.isovalue, measured, feet)
+        return Draw(common.cloud_of(positions, values), surface.isovalue, measured, feet)
 
 
 class VolumeSet:

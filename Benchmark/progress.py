@@ -41,7 +41,7 @@ positions = random.random((options.samples, 3), dtype=np.float32)
 noise = random.standard_normal(options.samples, dtype=np.float32)
 common.print_head("samples", "output", "isovalue", "seconds", "reports", "longest silence, %", "points of 100 off")
 for field, (isovalues, values) in FIELDS.items():
-    samples = common.cloud(positions, values(positions, noise))
+    samples = common.cloud_of(positions, values(positions, noise))
     for output, (kind, properties) in OUTPUTS.items():
         contour = common.configured(kind(), samples, **properties)
         for isovalue in isovalues:

@@ -5,55 +5,27 @@
 import sys
 
 import common
-from scatteredisopoints import contour, vtkIsopointRayTracer, vtkIsopointSplatMapper
+from scatteredisopoints import contour, vtkIsopointRayTracer
+from scenes import actor_of, configured, output_of
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkFiltersSources import vtkPlaneSource
 from vtkmodules.vtkIOImage import vtkPNGWriter
-from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer
+from vtkmodules.vtkRenderingCore import vtkLight, vtkRenderer
 
-engine = vtkActor()
-engine.SetMapper(vtkIsopointSplatMapper())
-engine.GetMapper().SetInputData(contour(common.read(sys.argv[1]), None, 80.0).polydata)
-engine.GetMapper().ScalarVisibilityOff()
+MIDDLE = (128.0, 128.0, 60.0)
+engine = actor_of(contour(common.read(sys.argv[1]), None, 80.0).polydata, Metallic=1.0, Roughness=0.3,
+                  Color=(0.78, 0.8, 0.84))
 engine.GetProperty().SetInterpolationToPBR()
-engine.GetProperty().SetMetallic(1.0)
-engine.GetProperty().SetRoughness(0.3)
-engine.GetProperty().SetColor(0.78, 0.8, 0.84)
-
-ground = vtkPlaneSource()
 level = engine.GetBounds()[4]
-ground.SetOrigin(-600.0, -600.0, level)
-ground.SetPoint1(900.0, -600.0, level)
-ground.SetPoint2(-600.0, 900.0, level)
-floor = vtkActor()
-floor.SetMapper(vtkPolyDataMapper())
-floor.GetMapper().SetInputConnection(ground.GetOutputPort())
-floor.GetProperty().SetColor(0.75, 0.75, 0.78)
-
-light = vtkLight()
-light.SetPosition(-200.0, -400.0, 600.0)
-light.SetFocalPoint(128.0, 128.0, 60.0)
-light.SetIntensity(0.9)
-renderer = vtkRenderer()
+ground = output_of(vtkPlaneSource(), Origin=(-600, -600, level), Point1=(900, -600, level), Point2=(-600, 900, level))
+renderer = configured(
+    vtkRenderer(), Background=(0.95, 0.96, 0.98), Background2=(0.45, 0.6, 0.8), GradientBackground=True)
 renderer.AddActor(engine)
-renderer.AddActor(floor)
-renderer.AddLight(light)
-renderer.SetBackground(0.95, 0.96, 0.98)
-renderer.SetBackground2(0.45, 0.6, 0.8)
-renderer.GradientBackgroundOn()
-camera = renderer.GetActiveCamera()
-camera.SetFocalPoint(128.0, 128.0, 60.0)
-camera.SetPosition(-70.0, -230.0, 290.0)
-camera.SetViewUp(0.0, 0.0, 1.0)
+renderer.AddActor(actor_of(ground, splats=False, Color=(0.75, 0.75, 0.78)))
+renderer.AddLight(configured(vtkLight(), Position=(-200.0, -400.0, 600.0), FocalPoint=MIDDLE, Intensity=0.9))
+configured(renderer.GetActiveCamera(), FocalPoint=MIDDLE, Position=(-70.0, -230.0, 290.0), ViewUp=(0.0, 0.0, 1.0))
 renderer.ResetCameraClippingRange()
-
-tracer = vtkIsopointRayTracer()
-tracer.SetSamplesPerPixel(48)
-tracer.SetLightAngle(4.0)
-tracer.SetAmbientLight(0.35)
 image = vtkImageData()
+tracer = configured(vtkIsopointRayTracer(), SamplesPerPixel=48, LightAngle=4.0, AmbientLight=0.35)
 tracer.RenderToImage(renderer, 480, 360, image)
-writer = vtkPNGWriter()
-writer.SetInputData(image)
-writer.SetFileName("ray_traced_engine.png")
-writer.Write()
+configured(vtkPNGWriter(), InputData=image, FileName="ray_traced_engine.png").Write()

@@ -45,7 +45,7 @@ common.print_head("noise", "radius", "distance, linear interpolation", "normals"
 for noise in 0.1, 0.3, 1.0:
     values = torus.value(positions) + noise * spacing * random.standard_normal(count)
     for radius in 0, 1.5, 2, 3:
-        samples, cells = averaged(common.cloud(positions, values), radius * spacing), []
+        samples, cells = averaged(common.cloud_of(positions, values), radius * spacing), []
         for projection in "NO_PROJECTION", "CUBIC_FIT":
             surface = contour(samples, None, torus.isovalue, projection=projection)
             feet, normals = torus.feet(surface.points.astype(float))

@@ -12,7 +12,7 @@ that has a tree, and vtkDelaunay3D. CGAL is timed by TriangleAdversaries.
 
 import common
 import numpy as np
-from common import POINTS, RADIUS, SIDE, TRIANGLES, measure, uniform
+from common import POINTS, RADIUS, SIDE, TRIANGLES, measure, set_all, uniform
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkSMPTools
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkStaticPointLocator
@@ -42,7 +42,7 @@ def lattice(count, _):
 
 
 def cloud(positions):
-    return common.cloud(positions, np.linalg.norm(positions, axis=1))
+    return common.cloud_of(positions, np.linalg.norm(positions, axis=1))
 
 
 def resampled(path, count):
@@ -55,7 +55,7 @@ def resampled(path, count):
     probe.SetSourceData(volume)
     values = common.output_of(probe, cloud(positions)).GetPointData().GetArray(
         volume.GetPointData().GetScalars().GetName())
-    return common.cloud(positions, vtk_to_numpy(values).astype(np.float32))
+    return common.cloud_of(positions, vtk_to_numpy(values).astype(np.float32))
 
 
 class Table:
@@ -81,9 +81,10 @@ class Table:
         points = common.positions_of(surface)
         radius = radius or (self.isovalue if self.name != "file" else None)
         deviation = np.abs(np.linalg.norm(points, axis=1) - radius).max() if radius else np.nan
-        common.print_row(self.name, f"{self.count:,}", threads or self.threads, what, f"{seconds:.4f}",
-                         f"{seconds / self.ours:.3g}", f"{seconds / self.copy:.3g}", f"{1e9 * seconds / self.count:.0f}",
-                         f"{len(points):,}", f"{deviation:.5f}", f"{peak / self.count:.1f}")
+        common.print_row(
+            self.name, f"{self.count:,}", threads or self.threads, what, f"{seconds:.4f}", f"{seconds / self.ours:.3g}",
+            f"{seconds / self.copy:.3g}", f"{1e9 * seconds / self.count:.0f}", f"{len(points):,}", f"{deviation:.5f}",
+            f"{peak / self.count:.1f}")
         return surface
 
     def new_filter(self, kind=POINTS, has_fit=True, is_all=True):
@@ -133,26 +134,16 @@ class Table:
         """A grid that yields as many points: a sphere crosses 6 pi (r / spacing)^2 of its edges."""
         spacing = self.isovalue * np.sqrt(6 * np.pi / surface_points)
         bounds = np.array(self.samples.GetBounds()).reshape(3, 2)
-        grid = vtkImageData()
-        grid.SetDimensions(*(int(length / spacing) + 1 for length in bounds[:, 1] - bounds[:, 0]))
-        grid.SetSpacing(3 * [spacing])
-        grid.SetOrigin(bounds[:, 0])
-        kernel = vtkShepardKernel()
+        grid = set_all(vtkImageData(), Spacing=3 * [spacing], Origin=bounds[:, 0],
+                       Dimensions=[int(length / spacing) + 1 for length in bounds[:, 1] - bounds[:, 0]])
+        kernel = set_all(vtkShepardKernel(), NumberOfPoints=8)
         kernel.SetKernelFootprintToNClosest()
-        kernel.SetNumberOfPoints(8)
-        interpolator = vtkPointInterpolator()
-        interpolator.SetInputData(grid)
-        interpolator.SetSourceData(self.samples)
-        interpolator.SetLocator(vtkStaticPointLocator())
-        interpolator.SetKernel(kernel)
-        contour = self.contour_of(interpolator, vtkFlyingEdges3D())
-        contour.ComputeNormalsOff()
-        return contour
+        interpolator = set_all(vtkPointInterpolator(), InputData=grid, SourceData=self.samples, Kernel=kernel,
+                               Locator=vtkStaticPointLocator())
+        return self.contour_of(interpolator, set_all(vtkFlyingEdges3D(), ComputeNormals=False))
 
     def delaunay(self):
-        tetrahedra = vtkDelaunay3D()
-        tetrahedra.SetInputData(self.samples)
-        return self.contour_of(tetrahedra, vtkContourFilter())
+        return self.contour_of(set_all(vtkDelaunay3D(), InputData=self.samples), vtkContourFilter())
 
     def contour_of(self, source, contour):
         contour.SetInputConnection(source.GetOutputPort())
@@ -191,9 +182,9 @@ def repeat_paper(options):
     for millions, angle, published_seconds, published_deviation in PUBLISHED:
         samples = cloud(uniform(int(1e6 * millions), np.random.default_rng(1)))
         seconds, deviations = [published_seconds], [published_deviation]
-        for projection in ("NO_PROJECTION", "QUADRATIC_FIT"):
-            isopoints = common.configured(
-                POINTS(), samples, RADIUS, **{**common.alone(), "Angle": angle, "Projection": getattr(POINTS, projection)})
+        for projection in (POINTS.NO_PROJECTION, POINTS.QUADRATIC_FIT):
+            properties = {**common.alone(), "Angle": angle, "Projection": projection}
+            isopoints = common.configured(POINTS(), samples, RADIUS, **properties)
             seconds.append(round(measure(isopoints.Update)[0], 2))
             distances = np.linalg.norm(common.positions_of(isopoints.GetOutput()), axis=1)
             deviations.append(round(np.abs(distances - RADIUS).max(), 5))

@@ -24,16 +24,16 @@ import sys
 
 import common
 import numpy as np
-import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, the factories
+from analytic_surfaces import unit
 from common import corners_of, leaves_of, output_of
 from scatteredisopoints import vtkIsopointSplatMapper, vtkIsopointSplatPolygons
+from scenes import Scene, configured
 from scipy.ndimage import binary_dilation
 from scipy.spatial import cKDTree
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImageData
 from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkCellCenters, vtkContourFilter
-from vtkmodules.vtkRenderingCore import (
-    vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter)
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
 PLACES = 300_000  # on splats, and on the reference
 RANDOM = np.random.default_rng(1)
@@ -47,10 +47,6 @@ FIELDS = (
 )
 
 
-def unit(vectors):
-    return vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-30)
-
-
 def on_triangles(corners, normals):
     """Random places, uniform by area, of triangles (n, 3, 3), with interpolated normals; and the area."""
     chosen, weights = common.random_places(corners, PLACES, RANDOM)
@@ -60,26 +56,11 @@ def on_triangles(corners, normals):
 
 def pixels_of(data, mapper, bounds, direction):
     """Which pixels something covers, seen along a direction."""
-    actor = vtkActor()
-    actor.SetMapper(common.configured(mapper, data, ScalarVisibility=False))
+    actor = configured(vtkActor(), Mapper=common.configured(mapper, data, ScalarVisibility=False))
     actor.GetProperty().LightingOff()
-    window, renderer = vtkRenderWindow(), vtkRenderer()
-    window.SetOffScreenRendering(1)
-    window.SetMultiSamples(0)
-    window.SetSize(600, 600)
-    window.AddRenderer(renderer)
-    renderer.AddActor(actor)
-    renderer.GetActiveCamera().SetPosition(*np.negative(direction))
-    renderer.GetActiveCamera().SetFocalPoint(0, 0, 0)
-    renderer.GetActiveCamera().SetViewUp(0, 0, 1)
-    renderer.ResetCamera(bounds)
-    renderer.ResetCameraClippingRange()
-    window.Render()
-    grab = vtkWindowToImageFilter()
-    grab.SetInput(window)
-    grab.ReadFrontBufferOff()
-    grab.Update()
-    return vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars()).reshape(600, 600, 3)[..., 0] > 0
+    scene = Scene(actor, background=(0, 0, 0))
+    scene.look(np.negative(direction), bounds=bounds)
+    return scene.image()[..., 0] > 0
 
 
 def outside(points, mesh):
@@ -95,12 +76,8 @@ def outside(points, mesh):
 
 def mesh_of_field(field, isovalue, cells=160):
     """Marching cubes on a fine grid."""
-    image = vtkImageData()
-    image.SetDimensions([cells + 1] * 3)
-    image.SetSpacing([2.0 / cells] * 3)
-    image.SetOrigin(-1, -1, -1)
-    values = field(common.positions_of(image))
-    image.GetPointData().SetScalars(common.cloud(np.zeros((1, 3)), values, "f").GetPointData().GetScalars())
+    image = configured(vtkImageData(), Dimensions=3 * [cells + 1], Spacing=3 * [2.0 / cells], Origin=(-1, -1, -1))
+    image.GetPointData().SetScalars(common.named("f", field(common.positions_of(image))))
     return contour_of(image, "f", isovalue)
 
 
@@ -122,8 +99,9 @@ def filtered(kind, data, array, isovalue, **properties):
 
 
 def samples_of(data, array):
-    return np.concatenate([common.positions_of(
-        leaf if leaf.GetPointData().HasArray(array) else output_of(vtkCellCenters(), leaf)) for leaf in leaves_of(data)])
+    leaves = (leaf if leaf.GetPointData().HasArray(array) else output_of(vtkCellCenters(), leaf)
+              for leaf in leaves_of(data))
+    return np.concatenate(list(map(common.positions_of, leaves)))
 
 
 def reference_of(data, array, isovalue):
@@ -145,8 +123,8 @@ def print_row(name, data, array, isovalue, mesh, field=None):
         corners, np.repeat(unit(common.normals_of(corners))[:, None], 3, axis=1))
     fans = output_of(vtkIsopointSplatPolygons(), points)
     ids = vtk_to_numpy(fans.GetPolys().GetConnectivityArray()).reshape(-1, 3)
-    on_splats, normals, area = on_triangles(
-        *(vtk_to_numpy(each).astype(float)[ids] for each in (fans.GetPoints().GetData(), fans.GetPointData().GetNormals())))
+    arrays = fans.GetPoints().GetData(), fans.GetPointData().GetNormals()
+    on_splats, normals, area = on_triangles(*(vtk_to_numpy(array).astype(float)[ids] for array in arrays))
     samples = cKDTree(np.unique(samples_of(data, array), axis=0))
 
     def spacing_at(places):
@@ -169,4 +147,5 @@ for path, array, isovalue in zip(arguments[::3], arguments[1::3], map(float, arg
     print_row(common.name_of(path), data, array, isovalue, reference_of(data, array, isovalue))
 for name, field, isovalue in FIELDS if not arguments else ():
     positions = RANDOM.uniform(-1, 1, (200_000, 3))
-    print_row(name, common.cloud(positions, field(positions), "f"), "f", isovalue, mesh_of_field(field, isovalue), field)
+    samples = common.cloud_of(positions, field(positions), "f")
+    print_row(name, samples, "f", isovalue, mesh_of_field(field, isovalue), field)

@@ -10,15 +10,12 @@ pixels: milliseconds per frame (the median of nine, with a moving camera), splat
 memory of the triangles. SAMPLES is that of vtkRenderWindow::SetMultiSamples; drivers may give fewer.
 """
 
-import time
-
 import common
 import numpy as np
-import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, the factories
 from scatteredisopoints import vtkIsopointSplatMapper
-from vtkmodules.vtkRenderingCore import vtkActor, vtkPointGaussianMapper, vtkRenderer, vtkRenderWindow
+from scenes import RING, TUBE, Scene, configured
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPointGaussianMapper
 
-RING, TUBE = 1.0, 0.4
 DISK = """//VTK::Color::Impl
 if (dot(offsetVCVSOutput.xy, offsetVCVSOutput.xy) > 1.0)
 {
@@ -40,38 +37,31 @@ def torus(count):
     u, v, tube = u[kept][:number], v[kept][:number], tube[kept][:number]
     ring = RING + tube * np.cos(v)
     positions = np.column_stack([ring * np.cos(u), ring * np.sin(u), tube * np.sin(v)])
-    return common.output_of(common.POINTS(), common.cloud(positions, TUBE - tube), 0.0)
+    return common.output_of(common.POINTS(), common.cloud_of(positions, TUBE - tube), 0.0)
 
 
 def seconds_per_frame(mapper, data, samples):
-    actor = vtkActor()
-    actor.SetMapper(common.configured(mapper, data, ScalarVisibility=False))
-    window, renderer = vtkRenderWindow(), vtkRenderer()
-    window.SetOffScreenRendering(1)
-    window.SetMultiSamples(samples)
-    window.SetSize(600, 600)
-    window.AddRenderer(renderer)
-    renderer.AddActor(actor)
-    camera = renderer.GetActiveCamera()
-    camera.SetPosition(0, -3, 3)
-    camera.SetFocalPoint(0, 0, 0)
-    renderer.ResetCamera()
-    camera.Zoom(1.3)
+    actor = configured(vtkActor(), Mapper=common.configured(mapper, data, ScalarVisibility=False))
+    scene = Scene(actor, samples=samples)
+    scene.camera.Zoom(1.3)
+
+    def draw():
+        scene.window.Render()
+        scene.window.WaitForCompletion()
+
     times = []
     for _ in range(11):
-        camera.Azimuth(0.1)
-        start = time.perf_counter()
-        window.Render()
-        window.WaitForCompletion()
-        times.append(time.perf_counter() - start)
-    return np.median(times[2:]), window.ReportCapabilities()
+        scene.camera.Azimuth(0.1)
+        times.append(common.timed(draw)[0])
+    return np.median(times[2:]), scene.window.ReportCapabilities()
 
 
 parser = common.parser_of(__doc__)
 parser.add_argument("counts", metavar="COUNT", nargs="*", type=int, default=[20_000, 100_000, 500_000])
 common.add_numbers(parser, samples=0)
 options = parser.parse_args()
-common.print_head("isopoints", "Point Gaussian, ms", "splats, ms", "ratio", "million splats per second", "triangles, MB")
+common.print_head(
+    "isopoints", "Point Gaussian, ms", "splats, ms", "ratio", "million splats per second", "triangles, MB")
 for count in options.counts:
     data = torus(count)
     number = data.GetNumberOfPoints()

@@ -9,12 +9,15 @@ import os
 import sys
 import tempfile
 
+import common  # noqa: F401, the folders of what follows
 import numpy as np
 from paraview import simple
-from paraview.vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from scripting import contoured, make_view, read_image, shown
+from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
+from vtkmodules.vtkIOImage import vtkPNGWriter
 
+WHITE = [1.0, 1.0, 1.0]
 SIZE = [420, 420]
 COLOR = [0.85, 0.72, 0.5]
 
@@ -27,10 +30,6 @@ ROWS = [
 ]
 
 
-def contoured(make, source, array, isovalue, **options):
-    return make(Input=source, ContourBy=["POINTS", array], Isosurfaces=[isovalue], **options)
-
-
 def surfaces_of(folder, name, array, isovalue):
     """The surface of each column, with its representation; None where there is no mesh."""
     mesh = simple.OpenDataFile(os.path.join(folder, name))
@@ -40,10 +39,10 @@ def surfaces_of(folder, name, array, isovalue):
         samples = simple.CellCenters(Input=mesh)
         mesh = simple.CellDatatoPointData(Input=mesh)
         mesh.UpdatePipeline()
-    columns = [(contoured(make, samples, array, isovalue, DropGaps=1), representation) for make, representation in (
-        (simple.ScatteredIsopoints, "Isopoint Splats"), (simple.ScatteredIsosurface, "Surface"))]
+    columns = [(contoured(samples, array, isovalue, kind=kind, DropGaps=1), shape) for kind, shape in (
+        ("ScatteredIsopoints", "Isopoint Splats"), ("ScatteredIsosurface", "Surface"))]
     has_mesh = mesh.GetDataInformation().GetNumberOfCells() > 0 and not name.endswith(".vtp")
-    columns.append((contoured(simple.Contour, mesh, array, isovalue), "Surface") if has_mesh else None)
+    columns.append((contoured(mesh, array, isovalue, kind="Contour"), "Surface") if has_mesh else None)
     return columns
 
 
@@ -56,33 +55,6 @@ def place(camera, bounds, direction, up, zoom):
     camera.SetFocalPoint(*center)
     camera.SetPosition(*(center - distance * direction))
     camera.SetViewUp(*up)
-
-
-def new_view(size):
-    view = simple.CreateView("RenderView")
-    view.ViewSize = size
-    view.OrientationAxesVisibility = 0
-    view.UseColorPaletteForBackground = 0
-    view.Background = [1.0, 1.0, 1.0]
-    return view
-
-
-def show(source, view, representation, color):
-    display = simple.Show(source, view)
-    display.SetRepresentationType(representation)
-    display.ColorArrayName = ["POINTS", ""]
-    display.DiffuseColor = display.AmbientColor = color
-    return display
-
-
-def read(path):
-    """A picture as an array of rows, the lowest first."""
-    reader = vtkPNGReader()
-    reader.SetFileName(path)
-    reader.Update()
-    image = reader.GetOutput()
-    width, height, _ = image.GetDimensions()
-    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1)[:, :, :3]
 
 
 def write(pixels, path):
@@ -100,13 +72,13 @@ def pixels_of(column, bounds, camera, path):
     if column is None:
         return np.full((SIZE[1], SIZE[0], 3), 255, np.uint8)
     surface, representation = column
-    view = new_view(SIZE)
-    show(surface, view, representation, COLOR)
+    view = make_view(*SIZE, WHITE)
+    shown(surface, view, COLOR, Representation=representation)
     simple.ResetCamera(view)
     place(view.GetActiveCamera(), bounds, *camera)
     simple.SaveScreenshot(path, view, ImageResolution=SIZE)
     simple.Delete(view)
-    return read(path)
+    return read_image(path).astype(np.uint8)
 
 
 def main(plugin, folder, picture):
@@ -119,7 +91,6 @@ def main(plugin, folder, picture):
             columns = surfaces_of(folder, name, array, isovalue)
             # All columns are seen alike: triangles may have outliers, and splats be huge.
             framed = columns[2] or columns[0]
-            framed[0].UpdatePipeline()
             bounds = framed[0].GetDataInformation().GetBounds()
             path = os.path.join(scratch, "part.png")
             parts = [pixels_of(column, bounds, camera, path) for column in columns]

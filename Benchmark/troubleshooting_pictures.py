@@ -9,13 +9,12 @@ import os
 import sys
 import tempfile
 
+import common
 import numpy as np
-from paraview import simple
-from paraview.vtk.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet, vtkPolyData
-
 import triangle_pictures as pictures
+from paraview import simple
+from scripting import contoured, make_view, produced, read_image, shown
+from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
 
 SIZE = [200, 200]
 GRAY = [0.5, 0.5, 0.6]
@@ -24,31 +23,12 @@ CAMERA = (-0.52, -0.42, -0.74), (0.0, 1.0, 0.0), 1.35  # direction, view up, zoo
 FROM_BELOW = (0.0, 0.7, -0.7), (0.0, 1.0, 0.0), 1.35
 
 
-def cloud(positions, values, **arrays):
-    points = vtkPoints()
-    points.SetData(numpy_to_vtk(np.ascontiguousarray(positions), deep=True))
-    data = vtkPolyData()
-    data.SetPoints(points)
-    for name, array in {"values": values, **arrays}.items():
-        array = numpy_to_vtk(np.ascontiguousarray(array), deep=True)
-        array.SetName(name)
-        data.GetPointData().AddArray(array)
-    return data
-
-
-def source(data):
-    producer = simple.TrivialProducer()
-    producer.GetClientSideObject().SetOutput(data)
-    producer.UpdatePipeline()
-    return producer
-
-
 def points(samples, isovalue=0.0, **options):
-    return pictures.contoured(simple.ScatteredIsopoints, samples, "values", isovalue, **options)
+    return contoured(samples, "values", isovalue, **options)
 
 
 def triangles(samples, isovalue=0.0, **options):
-    return pictures.contoured(simple.ScatteredIsosurface, samples, "values", isovalue, **options)
+    return contoured(samples, "values", isovalue, kind="ScatteredIsosurface", **options)
 
 
 def scaled(data, *factors):
@@ -68,7 +48,10 @@ def torus(positions):
 
 def torus_samples(**arrays):
     positions = uniform(60000)
-    return source(cloud(positions, torus(positions), **arrays))
+    data = common.cloud_of(positions, torus(positions))
+    for name, array in arrays.items():
+        data.GetPointData().AddArray(common.named(name, array))
+    return produced(data)
 
 
 class Album:
@@ -84,10 +67,10 @@ class Album:
             information = surface.GetDataInformation()
             is_mesh = information.GetNumberOfCells() != information.GetNumberOfPoints()
             representation = "Surface" if is_mesh else "Isopoint Splats"
-            view = pictures.new_view(SIZE)
-            pictures.show(surface, view, representation, pictures.COLOR)
+            view = make_view(*SIZE, pictures.WHITE)
+            shown(surface, view, pictures.COLOR, Representation=representation)
             if samples:
-                pictures.show(samples, view, "Point Gaussian", GRAY).GaussianRadius = 0.012
+                shown(samples, view, GRAY, Representation="Point Gaussian", GaussianRadius=0.012)
             simple.ResetCamera(view)
             pictures.place(view.GetActiveCamera(), BOUNDS, *camera)
             if draw:
@@ -95,14 +78,14 @@ class Album:
             else:
                 simple.SaveScreenshot(self.part, view, ImageResolution=SIZE)
             simple.Delete(view)
-            halves.append(pictures.read(self.part))
+            halves.append(read_image(self.part).astype(np.uint8))
         pictures.write(np.concatenate(halves, axis=1), os.path.join(self.folder, name + ".png"))
 
 
 def add_gaps(album):
     # Two groups of samples, and the isovalue between them.
     groups = np.concatenate([0.4 * uniform(1500) + [side, 0, 0] for side in (-0.55, 0.55)])
-    samples = source(cloud(groups, groups[:, 0]))
+    samples = produced(common.cloud_of(groups, groups[:, 0]))
     album.add("empty", triangles(samples), triangles(samples, DropGaps=0), samples)
 
     # A bent slab: the space inside the bend has no samples.
@@ -110,7 +93,7 @@ def add_gaps(album):
     radius = np.hypot(slab[:, 0], slab[:, 1])
     is_bend = (radius > 0.5) & (radius < 0.95) & ~((slab[:, 0] > 0) & (np.abs(slab[:, 1]) < 0.3))
     slab = slab[is_bend & (np.abs(slab[:, 2]) < 0.3)]
-    samples = source(cloud(slab, slab[:, 2] + 0.1 * np.sin(6 * slab[:, 0])))
+    samples = produced(common.cloud_of(slab, slab[:, 2] + 0.1 * np.sin(6 * slab[:, 0])))
     album.add("filled", triangles(samples, DropGaps=0), triangles(samples), camera=FROM_BELOW)
 
     # Stations, each with some samples close to each other.
@@ -118,7 +101,7 @@ def add_gaps(album):
     stations = np.stack(np.meshgrid(nodes, nodes, nodes), -1).reshape(-1, 1, 3)
     stations = stations + 0.06 * uniform(15 * len(stations)).reshape(-1, 15, 3)
     stations = stations.reshape(-1, 3)
-    samples = source(cloud(stations, np.linalg.norm(stations, axis=1)))
+    samples = produced(common.cloud_of(stations, np.linalg.norm(stations, axis=1)))
     album.add("early", triangles(samples, 0.8), triangles(samples, 0.8, DropGaps=0))
 
 
@@ -126,8 +109,8 @@ def add_seams(album):
     positions = uniform(60000)
     blocks = vtkMultiBlockDataSet()
     for i, is_here in enumerate((positions[:, 0] < 0.1, positions[:, 0] >= 0.1)):
-        blocks.SetBlock(i, cloud(positions[is_here], torus(positions[is_here])))
-    samples = source(blocks)
+        blocks.SetBlock(i, common.cloud_of(positions[is_here], torus(positions[is_here])))
+    samples = produced(blocks)
     album.add("seams", points(samples, ContourBlocks=1), points(samples))
 
 
@@ -138,7 +121,7 @@ def add_holes(album):
     positions = positions[torus(positions) < 0]
     reach = 0.14
     near = np.array([(((positions - place) ** 2).sum(axis=1) < reach**2).sum() for place in positions])
-    samples = source(cloud(positions, near.astype(float)))
+    samples = produced(common.cloud_of(positions, near.astype(float)))
     isovalue = 0.5 * near.max()
     album.add("holes", points(samples, isovalue), triangles(samples, isovalue))
 
@@ -173,7 +156,7 @@ def add_noise(album):
     positions = uniform(60000)
     spacing = 2 / len(positions) ** (1 / 3)
     noise = spacing * np.random.default_rng(2).standard_normal(len(positions))
-    samples = source(cloud(positions, torus(positions) + noise))
+    samples = produced(common.cloud_of(positions, torus(positions) + noise))
     smooth = simple.PointDatasetInterpolator(Input=samples, Source=samples)
     smooth.Kernel = "LinearKernel"
     smooth.Kernel.Radius = 2 * spacing

@@ -32,7 +32,7 @@ def quarter_of(volume, seed=1):
     index = np.array(np.unravel_index(chosen, volume.GetDimensions()[::-1])).T[:, ::-1]
     positions = volume.GetOrigin() + (index + volume.GetExtent()[::2]) * volume.GetSpacing()
     values = vtk_to_numpy(volume.GetPointData().GetScalars())[chosen]
-    samples = common.cloud(positions.astype(np.float32), values.astype(np.float32))
+    samples = common.cloud_of(positions.astype(np.float32), values.astype(np.float32))
     return samples, (np.prod(volume.GetSpacing()) * count / len(chosen)) ** (1 / 3)
 
 

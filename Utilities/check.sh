@@ -7,13 +7,6 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-cxx_files()
-{
-  # clang-format 14 indents extern "C" blocks.
-  find Benchmark Common Core Filters Library Plugin RayTracing Rendering Testing ! -name isopoint.h \
-    \( -name '*.h' -o -name '*.cxx' \) -print0
-}
-
 # The command of a tool's version 14; installs it if possible.
 version_14()
 {
@@ -26,7 +19,6 @@ version_14()
     fi
   done
   echo "$0: $1 of version 14 is needed: other versions format and warn differently." >&2
-  echo "Its package is listed in Utilities/debian-packages-check.txt." >&2
   return 1
 }
 
@@ -34,7 +26,8 @@ format()
 {
   local tool
   tool=$(version_14 clang-format)
-  cxx_files | xargs -0 "$tool" "$@"
+  # clang-format 14 indents extern "C" blocks.
+  git ls-files -z --cached --others --exclude-standard '*.h' '*.cxx' ':!*/isopoint.h' | xargs -0 "$tool" "$@"
 }
 
 lint()
@@ -42,30 +35,10 @@ lint()
   local tool
   tool=$(version_14 clang-tidy)
   Utilities/prepare.sh release # generated headers
-  # One entry per file, slow ones first.
-  mkdir -p build/release/lint
-  /usr/bin/python3 - << 'END' |
-import json
-import os
-
-entries = {}
-for entry in json.load(open("build/release/compile_commands.json")):
-    path = os.path.relpath(os.path.join(entry["directory"], entry["file"]))
-    core = "build/release/Core/"  # configured sources
-    if path.startswith((core, "Core/", "Filters/", "Library/", "Plugin/", "RayTracing/", "Rendering/")):
-        entries.setdefault(path, entry)
-json.dump(list(entries.values()), open("build/release/lint/compile_commands.json", "w"))
-for path in sorted(entries, key=lambda path: ("Core/" not in path, path)):
-    print(path, end="\0")
-END
-    xargs -0 -n 1 -P "$(nproc)" "$tool" --quiet -p build/release/lint 2>&1 |
+  grep -oP '"file": "\K[^"]+' build/release/compile_commands.json |
+    grep -E "^$PWD/(build/release/Core|Core|Filters|Library|Plugin|RayTracing|Rendering)/" |
+    xargs -d '\n' -n 1 -P "$(nproc)" "$tool" --quiet -p build/release 2>&1 |
     sed -E '/warnings? .*generated\.$/d'
-}
-
-spelling()
-{
-  command -v codespell > /dev/null || Utilities/prepare.sh check
-  git ls-files -z | xargs -0 codespell
 }
 
 (($# > 0)) || set -- format documents spelling lint
@@ -75,7 +48,10 @@ for check; do
     fix) format -i ;;
     lint) lint ;;
     documents) Utilities/check-documents.py ;;
-    spelling) spelling ;;
+    spelling)
+      command -v codespell > /dev/null || Utilities/prepare.sh check
+      git ls-files -z | xargs -0 codespell
+      ;;
     *)
       echo "usage: $0 [format|lint|documents|spelling|fix]..." >&2
       exit 2

@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the filters do as they come: the array, the isovalue and what is computed by default."""
+"""The filters with their defaults: which array and isovalue they take, and what they compute."""
 
 import sys
 
 import numpy as np
 from paraview import simple
-from vtkmodules.vtkCommonCore import vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet
 
-from scripting import add_array, check, load, messages, number_of_points, offered_arrays, path_of, produced, run, updated
+from scripting import check, load, messages, named, number_of_points, offered_arrays, path_of, produced, run, updated
 
 load(sys.argv[1])
 FILTERS = simple.ScatteredIsopoints, simple.ScatteredIsosurface
@@ -20,12 +19,12 @@ def attributes_of(data, association):
 
 
 def lattice(association, **arrays):
-    """A lattice with arrays of points or cells, in their order, named here by functions."""
+    """A lattice with arrays of points or cells. Each array has a name and a function that yields its values."""
     image = vtkImageData()
     image.SetDimensions(*([13] * 3 if association == "CELLS" else [12] * 3))
     places = np.stack(np.meshgrid(*3 * [np.arange(12.0)], indexing="ij"), -1).reshape(-1, 3)
     for name, function in arrays.items():
-        add_array(attributes_of(image, association), name, function(places))
+        attributes_of(image, association).AddArray(named(name, function(places)))
     return image
 
 
@@ -51,7 +50,8 @@ def the_array_of_an_input():
     for association in ASSOCIATIONS:
         for chosen, active, arrays in (
                 ("distance", None, dict(BlockId=number(0), distance=distance, z=distance)),
-                ("stress", None, dict(GlobalElementId=ids, Nodes=ids, Pedigree=ids, stress=distance, vtkGhostType=ghosts)),
+                ("stress", None, dict(GlobalElementId=ids, Nodes=ids, Pedigree=ids, stress=distance,
+                                      vtkGhostType=ghosts)),
                 ("second", "second", dict(BlockId=number(0), first=distance, second=distance)),
                 ("first", "BlockId", dict(BlockId=number(0), first=distance, second=distance)),
                 ("BlockId", None, dict(BlockId=number(0)))):
@@ -76,14 +76,11 @@ def the_array_of_an_input():
 
 
 def arrays_without_isosurfaces_are_not_offered():
-    """Strings, ghost marks, and arrays without a number."""
+    """No isosurface exists for strings, ghost marks, and arrays without a number."""
     for association in ASSOCIATIONS:
         data = lattice(association, vtkGhostType=ghosts, none=number(np.nan),
                        some=lambda p: np.where(p[:, 0] < 2, np.nan, distance(p)))
-        names = vtkStringArray()
-        names.SetName("names")
-        names.SetNumberOfValues(12**3)
-        attributes_of(data, association).AddArray(names)
+        attributes_of(data, association).AddArray(named("names", 12**3 * ["name"]))
         for create in FILTERS:
             isopoints = create(Input=produced(data))
             check(offered_arrays(isopoints) == ["some"], f"offered: {offered_arrays(isopoints)}")
@@ -96,7 +93,7 @@ def arrays_without_isosurfaces_are_not_offered():
 
 
 def triangles_are_saved_as_stl():
-    """Isopoints have none, which is said."""
+    """Isopoints have no triangles, and a message says so."""
     source = produced(lattice("POINTS", distance=distance))
     for create, word in zip(FILTERS, ("Scattered Isosurface", "")):
         isopoints = updated(create(Input=source))
@@ -121,7 +118,7 @@ def input_matters_rather_than_the_active_source():
 
 
 def isovalue_follows_the_array():
-    """As long as nobody has chosen one."""
+    """The isovalue follows the array until the user chooses an isovalue."""
     source = produced(lattice("POINTS", first=distance, large=lambda p: 1000 * distance(p)))
     for create in FILTERS:
         isopoints = create(Input=source)

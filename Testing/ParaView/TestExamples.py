@@ -8,9 +8,10 @@ import runpy
 import sys
 
 import numpy as np
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../Python"))
+from vtk_data import read_image  # noqa: E402
 
 _, script, folder, *arguments = sys.argv
 os.makedirs(folder, exist_ok=True)
@@ -27,10 +28,7 @@ if is_first and not pictures:
     sys.exit(f"{script} wrote no picture")
 for path in pictures:
     # The surface covers a part of the picture, in many shades.
-    reader = vtkPNGReader()
-    reader.SetFileName(path)
-    reader.Update()
-    pixels = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())[:, :3].astype(int)
+    pixels = read_image(path).reshape(-1, 3)
     share = (np.abs(pixels - pixels[0]).max(axis=1) > 8).mean()
     shades = len(np.unique(pixels, axis=0))
     if not (0.02 < share < 0.95 and shades > 60):

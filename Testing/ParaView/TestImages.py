@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Splats of images and rectilinear grids, whose points are computed rather than stored."""
+"""Splats of images and rectilinear grids. These compute their points instead of storing them."""
 
 import contextlib
 import resource
@@ -10,23 +10,18 @@ from paraview import simple
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkRectilinearGrid
 
-from scripting import SPLATS, check, covered, load, look, make_view, messages, pixels, produced, run, shown
+from scripting import (
+    SPLATS, check, covered, load, look, make_view, messages, pixels, produced, run, set_all, shown)
 
 
 def image(origin, count=20):
-    data = vtkImageData()
-    data.SetDimensions(count, count, 1)
-    data.SetOrigin(origin, origin, origin)
-    return data
+    return set_all(vtkImageData(), Dimensions=(count, count, 1), Origin=3 * (origin,))
 
 
 def rectilinear_grid(origin):
-    data = vtkRectilinearGrid()
-    data.SetDimensions(20, 20, 1)
-    for axis, count in (("X", 20), ("Y", 20), ("Z", 1)):
-        coordinates = numpy_to_vtk(origin + np.arange(float(count)), deep=True)
-        getattr(data, f"Set{axis}Coordinates")(coordinates)
-    return data
+    return set_all(vtkRectilinearGrid(), Dimensions=(20, 20, 1), **{
+        axis + "Coordinates": numpy_to_vtk(origin + np.arange(float(count)), deep=True)
+        for axis, count in (("X", 20), ("Y", 20), ("Z", 1))})
 
 
 def show(data, origin):
@@ -38,13 +33,13 @@ def show(data, origin):
 
 
 def check_splats(what):
-    """400 disjoint octahedra are seen from above as squares whose diagonals are of 32 pixels."""
+    """Shows 400 separate octahedra from above, as squares with diagonals of 32 pixels."""
     count = np.count_nonzero(covered(pixels(VIEW))) / (2 * 16**2)
     check(abs(count - 400) < 4, f"{count:.1f} splats: {what}")
 
 
 def precision():
-    """Single precision would not distinguish points that are 1 apart there."""
+    """In single precision, points at distance 1 would coincide at 1e9."""
     for make in (image, rectilinear_grid):
         for origin in (0.0, 1e9):
             source = show(make(origin), origin)
@@ -54,7 +49,7 @@ def precision():
 
 @contextlib.contextmanager
 def limited_memory():
-    """Limits the memory to what suffices for all but the positions of a huge image."""
+    """Limits the memory so that the positions of a huge image alone do not fit."""
     former = resource.getrlimit(resource.RLIMIT_AS)
     with open("/proc/self/statm") as pages:
         size = int(pages.read().split()[0]) * resource.getpagesize()
@@ -64,7 +59,7 @@ def limited_memory():
 
 
 def lack_of_memory():
-    """An image too large is one error, and another one can be shown afterwards."""
+    """An image that is too large causes one error. Afterwards the view can show another image."""
     source = show(image(0.0), 0.0)
     check_splats("a small image")
     source.GetClientSideObject().SetOutput(image(0.0, 60_000))

@@ -8,25 +8,19 @@ import numpy as np
 from paraview import simple
 
 from scripting import (
-    check, contoured, distance_in, load, number_of_points, offered_arrays, path_of, positions, updated)
-
-
-def table_of_points():
-    samples = np.random.default_rng(3).random((20000, 3)) * 2.0 - 1.0
-    table = np.column_stack([samples, np.linalg.norm(samples, axis=1)])
-    np.savetxt(path_of("samples.csv"), table, delimiter=",", header="x,y,z,r", comments="")
-    reader = simple.CSVReader(FileName=[path_of("samples.csv")])
-    return simple.TableToPoints(Input=reader, XColumn="x", YColumn="y", ZColumn="z")
+    check, contoured, distance_in, load, number_of_points, offered_arrays, positions, table_of_points, updated)
 
 
 load(sys.argv[1])
 points = distance_in(simple.Wavelet())
+samples = np.random.default_rng(3).random((20000, 3)) * 2.0 - 1.0
+columns = dict(zip("xyz", samples.T), r=np.linalg.norm(samples, axis=1))
 parts = [simple.ExtractSubset(Input=points, VOI=[*x, -10, 10, -10, 10]) for x in ((-10, 0), (0, 10))]
 surfaces = []
 for what, source, association, radius, tolerance in (
         ("image, point data", points, "POINTS", 7.05, 0.1),
         ("image, cell data", simple.PointDatatoCellData(Input=points), "CELLS", 7.05, 0.3),
-        ("table", table_of_points(), "POINTS", 0.7, 0.02),
+        ("table", table_of_points(**columns), "POINTS", 0.7, 0.02),
         ("blocks", simple.GroupDatasets(Input=parts), "POINTS", 7.05, 0.1)):
     surface = contoured(updated(source), "r", radius, association)
     surfaces.append(surface)

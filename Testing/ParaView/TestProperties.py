@@ -12,11 +12,7 @@ import xml.etree.ElementTree as ElementTree
 import numpy as np
 import scatteredisopoints
 from paraview import servermanager, simple
-from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkPolyData
-
-from scripting import SPLATS, check, load
+from scripting import SPLATS, check, load, vtk_data
 
 LARGE = {"IntVectorProperty": 2**31 - 1, "DoubleVectorProperty": 1e100}
 
@@ -26,7 +22,7 @@ def is_hidden(element):
 
 
 def vector_properties(root):
-    """Those that users set, of one value with a default: name, XML, the name in the class, and the default."""
+    """Yields name, XML, name in the class and default of each property that users set, with one value and a default."""
     for element in root.iter():
         if (element.tag.endswith("VectorProperty") and not is_hidden(element)
                 and {"default_values", "command"} <= set(element.keys()) and element.get("information_only") != "1"
@@ -38,7 +34,7 @@ def vector_properties(root):
 
 
 def limits(element):
-    """The least and the greatest value offered, None where there is no such limit."""
+    """The least and the greatest value that a property offers. None means that there is no limit."""
     domain = next(child for child in element if child.tag.endswith("Domain"))
     if domain.tag == "BooleanDomain":
         return 0, 1
@@ -62,18 +58,10 @@ def check_range(name, element, accepts):
         check(high is None or not accepts(high + 1), f"{name}: more than {high}")
 
 
-def samples():
-    positions = np.random.default_rng(1).random((50, 3))
-    data, points = vtkPolyData(), vtkPoints()
-    points.SetData(numpy_to_vtk(positions, deep=True))
-    data.SetPoints(points)
-    data.GetPointData().SetScalars(numpy_to_vtk(positions[:, 0].copy(), deep=True))
-    return data
-
-
 def filter_accepts(instance, name):
     """A value outside of the range is set to the nearest one, or is an error at the update."""
-    instance.SetInputData(samples())
+    positions = np.random.default_rng(1).random((50, 3))
+    instance.SetInputData(vtk_data.cloud_of(positions, positions[:, 0]))
     if hasattr(instance, "SetValue"):
         instance.SetValue(0, 0.5)
     errors = []
@@ -117,7 +105,7 @@ def check_filter(root, documented):
 
 
 def value_of(representation, name, like):
-    """As a representation prints itself and its polygons. Python does not know the class."""
+    """Reads a value from what a representation prints, since Python does not know the class."""
     return type(like)(dict(re.findall(r"^ *(\w+): (\S*)$", str(representation), re.MULTILINE))[name])
 
 

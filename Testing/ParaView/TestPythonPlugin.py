@@ -54,7 +54,7 @@ STATES = {name: str(FOLDER / (name + ".pvsm")) for name in SITES}
 
 
 def found_by(name, text):
-    """Only a pipeline that is built is saved, not one that was loaded."""
+    """Runs a text and the report. Saves the pipeline if the text builds one, not if it loads one."""
     save = f"SaveState({STATES[name]!r})\n" if text is BUILD else ""
     found, output = run_script(pvbatch, LOAD + text + REPORT + save, PYTHONPATH=SITES[name])
     check(len(found) > 10 and "rror" not in output, output)

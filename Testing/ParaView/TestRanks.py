@@ -14,14 +14,15 @@ import sys
 import unittest
 
 import numpy as np
-from vtkmodules.numpy_interface import dataset_adapter as dsa
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkIdTypeArray, vtkPoints, vtkStringArray, vtkUnsignedCharArray
-from vtkmodules.vtkCommonDataModel import (
-    vtkDataObject, vtkDataSetAttributes, vtkImageData, vtkMultiBlockDataSet, vtkPolyData)
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkStringArray, vtkUnsignedCharArray
+from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkDataSetAttributes, vtkImageData, vtkPolyData
 from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 from scatteredisopoints import vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../Python"))
+from vtk_data import blocks_of, centers_in, cloud_of, named, set_all  # noqa: E402
 
 RANKS = vtkMultiProcessController.GetGlobalController()
 RANK = RANKS.GetLocalProcessId()
@@ -41,35 +42,29 @@ def uniform(count, seed):
 
 
 def owners(count):
-    """The rank of each of some samples, in the order of ranks: the first one has most, the second few."""
+    """The rank of each sample, in ascending order. The first rank has most samples, the second few."""
     share = np.arange(count) / count
     return np.minimum((SIZE * np.where(share < 0.6, 0.1 * share, share)).astype(int), SIZE - 1)
 
 
 def poly_data(points, numbers, values=None):
     """A vtkPolyData of points with arrays of several kinds."""
-    result, place, ids = vtkPolyData(), vtkPoints(), vtkIdTypeArray()
-    place.SetData(numpy_to_vtk(points.astype(np.float32), deep=True))
-    result.SetPoints(place)
+    result = cloud_of(points.astype(np.float32))
     if len(points) == 0:
         return result
-    attributes = dsa.WrapDataObject(result).PointData
+    attributes = result.GetPointData()
     for name, array in (
             ("value", field(points).astype(np.float32) if values is None else values),
             ("vector", np.cross(points, [1.0, 2.0, 3.0])), ("short", (1000 * np.nan_to_num(points)).astype(np.int16)),
-            ("long", numbers.astype(np.int64) * 3000000000 - 7), ("with names", points[:, :2].copy())):
-        attributes.append(array, name)
+            ("long", numbers.astype(np.int64) * 3000000000 - 7), ("with names", points[:, :2]),
+            ("name", [f"sample {number}" for number in numbers])):
+        attributes.AddArray(named(name, array))
     for i, name in enumerate(("first", "second")):
-        result.GetPointData().GetArray("with names").SetComponentName(i, name)
-    names = vtkStringArray()
-    names.SetName("name")
+        attributes.GetArray("with names").SetComponentName(i, name)
+    ids = numpy_to_vtkIdTypeArray(5 * numbers.astype(np.int64), deep=True)
     ids.SetName("pedigree")
-    for number in numbers:
-        names.InsertNextValue("sample %d" % number)
-        ids.InsertNextValue(int(number) * 5)
-    result.GetPointData().AddArray(names)
-    result.GetPointData().SetPedigreeIds(ids)
-    result.GetPointData().SetActiveScalars("value")
+    attributes.SetPedigreeIds(ids)
+    attributes.SetActiveScalars("value")
     return result
 
 
@@ -117,20 +112,16 @@ def watched(isopoints, watch, events=("ErrorEvent", "WarningEvent", "MessageEven
 
 
 def configured(data, controller, kind=FILTERS[0], watch=None, cells=None, **options):
-    isopoints = kind()
-    isopoints.SetController(controller)
-    isopoints.SetInputData(data)
+    isopoints = set_all(kind(), Controller=controller, InputData=data)
     if cells:
         isopoints.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_CELLS, cells)
     if watch:
         watched(isopoints, watch)
-    for name, value in options.items():
-        getattr(isopoints, "Set" + name)(value)
-    return isopoints
+    return set_all(isopoints, **options)
 
 
 def contour(data, controller, kind=FILTERS[0], values=(0.3,), levels=0, **options):
-    """The filter after its update."""
+    """A filter that has been updated."""
     return run(configured(data, controller, kind, **options), values, levels)
 
 
@@ -223,7 +214,7 @@ class RanksTest(RanksTestCase):
         self.check(self.dealt(points, np.rint(20 * field(points)).astype(np.int32)), values=(6.1,))
 
     def test_further_isovalues_and_values(self):
-        """Even where ranks have dropped their trees."""
+        """Further updates are right even if some ranks have dropped their trees."""
         points = uniform(3000, 5)
         for kind in FILTERS:
             mine, whole = self.dealt(points)
@@ -240,23 +231,18 @@ class RanksTest(RanksTestCase):
             self.same(isopoints.GetOutput(), lambda: contour(whole, None, kind).GetOutput())
 
     def test_blocks_and_cells(self):
-        """Cells of images, several on each rank, as one cloud."""
-        def blocks(numbers):
-            result = vtkMultiBlockDataSet()
-            for i, number in enumerate(numbers):
-                image = vtkImageData()
-                image.SetDimensions(6, 7, 8)
-                image.SetOrigin(0.5 * (number % 2), 0.5 * (number // 2 % 2), 0.5 * (number // 4))
-                image.SetSpacing(0.1, 0.5 / 6, 0.5 / 7)
-                dsa.WrapDataObject(image).CellData.append(field(centers_of(image)), "value")
-                result.SetBlock(i, image)
+        """The cells of several images on each rank form one cloud."""
+        def image(number):
+            result = set_all(vtkImageData(), Dimensions=(6, 7, 8), Spacing=(0.1, 0.5 / 6, 0.5 / 7), Origin=(
+                0.5 * (number % 2), 0.5 * (number // 2 % 2), 0.5 * (number // 4)))
+            result.GetCellData().AddArray(named("value", field(centers_in(result))))
             return result
 
         mine = [number for number in range(8) if number * SIZE // 8 == RANK]
-        self.check((blocks(mine), blocks(range(8))), cells="value")
+        self.check((blocks_of(*map(image, mine)), blocks_of(*map(image, range(8)))), cells="value")
 
     def test_pieces_of_an_image(self):
-        """Consecutive pieces both have the points between them, which count once."""
+        """Consecutive pieces share points. These count once."""
         def positions(controller, piece, pieces):
             image = vtkRTAnalyticSource()
             image.SetWholeExtent(-9, 8, -7, 9, -8, 8)
@@ -274,7 +260,7 @@ class RanksTest(RanksTestCase):
             self.assertEqual(sorted(sum(parts, [])), sorted(positions(None, 0, 1)))
 
     def test_ghosts_for_what_follows(self):
-        """They stand behind the rank's own points, or triangles of an isovalue: those without ghosts."""
+        """Ghosts follow the rank's own points or triangles of an isovalue, which are those without ghosts."""
         for kind, values in zip(FILTERS, ((0.1, 0.5), (0.3,))):
             data = poly_data(uniform(3000 // SIZE, 10 + RANK), np.arange(3000 // SIZE))
             isopoints = contour(data, RANKS, kind, values, **ALL_ARRAYS)
@@ -323,7 +309,7 @@ class RanksTest(RanksTestCase):
         near = (owner != RANK) & (np.abs(points[:, 0] * SIZE - RANK - 0.5) < 0.7)
         chosen = np.flatnonzero((owner == RANK) | near)
         data = poly_data(points[chosen], chosen)
-        dsa.WrapDataObject(data).PointData.append(near[chosen].astype(np.uint8), GHOSTS)  # DUPLICATEPOINT is 1
+        data.GetPointData().AddArray(named(GHOSTS, near[chosen].astype(np.uint8)))  # DUPLICATEPOINT is 1
         # Ids differ where ghosts stand between.
         self.same(contour(data, RANKS).GetOutput(),
                   lambda: contour(poly_data(points, np.arange(len(points))), None).GetOutput(),
@@ -353,9 +339,7 @@ class RanksTest(RanksTestCase):
                 (0.3, 3, f"Skipped {3 * SIZE} of {2000 + 10 * SIZE} samples: not finite.")):
             values = np.full(10, 0.25, np.float32)
             values[:bad] = np.nan
-            blocks = vtkMultiBlockDataSet()
-            blocks.SetBlock(0, mine)
-            blocks.SetBlock(1, poly_data(uniform(10, 20 + RANK), np.arange(10), values))
+            blocks = blocks_of(mine, poly_data(uniform(10, 20 + RANK), np.arange(10), values))
             texts = []
             contour(blocks, RANKS, values=(value,), watch=texts.append)
             everything = gather(texts)
@@ -421,12 +405,6 @@ class RanksTest(RanksTestCase):
             counts = gather(run(isopoints, (0.3,)).GetOutput().GetNumberOfPoints())
             if RANK == 0:
                 self.assertGreater(sum(counts), 1000)
-
-
-def centers_of(data):
-    """The centers of cells, which are boxes."""
-    return np.array([np.mean(np.reshape(data.GetCell(i).GetBounds(), (3, 2)), axis=1)
-                     for i in range(data.GetNumberOfCells())])
 
 
 def main():

@@ -5,14 +5,14 @@ mpirun -n N pvbatch --symmetric TestRanksBlocks.py"""
 import unittest
 
 import numpy as np
-from vtkmodules.numpy_interface import dataset_adapter as dsa
 from vtkmodules.vtkCommonDataModel import (
-    vtkAMRBox, vtkCompositeDataSet, vtkMultiBlockDataSet, vtkMultiPieceDataSet, vtkOverlappingAMR,
-    vtkPartitionedDataSet, vtkPartitionedDataSetCollection, vtkPolyData, vtkUniformGrid)
+    vtkCompositeDataSet, vtkMultiBlockDataSet, vtkMultiPieceDataSet, vtkPartitionedDataSet,
+    vtkPartitionedDataSetCollection, vtkPolyData)
 
 from TestRanks import (
-    FILTERS, RANK, RANKS, SIZE, RanksTestCase, centers_of, contour, described, field, gather, main,
+    FILTERS, RANK, RANKS, SIZE, RanksTestCase, blocks_of, contour, described, field, gather, main,
     owners, poly_data, run, uniform)
+from vtk_data import amr_of
 
 COUNT = 5  # of blocks
 
@@ -23,9 +23,7 @@ def tree(leaves):
     for i, leaf in enumerate(leaves[1:]):
         inner.SetBlock(2 * i, leaf)  # with gaps
         inner.GetMetaData(2 * i).Set(vtkCompositeDataSet.NAME(), f"leaf {i + 1}")
-    outer = vtkMultiBlockDataSet()
-    outer.SetBlock(0, leaves[0])
-    outer.SetBlock(1, inner)
+    outer = blocks_of(leaves[0], inner)
     outer.GetMetaData(1).Set(vtkCompositeDataSet.NAME(), "inner")
     return outer
 
@@ -48,9 +46,7 @@ def collection(leaves):
 
 
 def pieces_in_blocks(leaves):
-    result = vtkMultiBlockDataSet()
-    result.SetBlock(0, partitions(leaves, vtkMultiPieceDataSet))
-    return result
+    return blocks_of(partitions(leaves, vtkMultiPieceDataSet))
 
 
 def leaves_of(output, name=""):
@@ -153,27 +149,10 @@ class RanksBlocksTest(RanksTestCase):
 
     def test_boxes_of_an_amr(self):
         """Boxes are on one rank each, as readers deal them out."""
-        def amr(mine):
-            result = vtkOverlappingAMR()
-            result.Initialize(2, [1, 3])
-            result.SetOrigin([0.0, 0.0, 0.0])
-            result.SetGridDescription(8)  # VTK_XYZ_GRID
-            for level, index, origin, side in ((0, 0, 0.0, 9), (1, 0, 0.0, 8), (1, 1, 0.4, 8), (1, 2, 0.2, 8)):
-                spacing = 0.1 / 2**level
-                result.SetSpacing(level, 3 * [spacing])
-                low = int(round(origin / spacing))
-                result.SetAMRBox(level, index, vtkAMRBox([low] * 3, [low + side - 1] * 3))
-                if mine is not None and (level + index) % SIZE != mine:
-                    continue
-                grid = vtkUniformGrid()
-                grid.SetOrigin(origin, origin, origin)
-                grid.SetSpacing(spacing, spacing, spacing)
-                grid.SetDimensions(side + 1, side + 1, side + 1)
-                dsa.WrapDataObject(grid).CellData.append(field(centers_of(grid)), "value")
-                result.SetDataSet(level, index, grid)
-            return result
+        def amr(is_here):
+            return amr_of("value", field, ((0, 0, 9), (1, 0, 8), (1, 8, 8), (1, 4, 8)), is_here)
 
-        self.same_output(amr(RANK), amr(None), cells="value")
+        self.same_output(amr(lambda number: number % SIZE == RANK), amr(lambda _: True), cells="value")
 
     @unittest.skipIf(SIZE == 1, "one rank has one structure")
     def test_different_trees_are_one_error(self):

@@ -8,18 +8,18 @@ import numpy as np
 from paraview import simple
 from scatteredisopoints import ray_trace
 
-from scripting import SPLATS, check, contoured, load, path_of, pixels_of_file, psnr, run, shown
+from scripting import SPLATS, check, contoured, load, path_of, read_image, psnr, run, shown
 
 
 def screenshot(**options):
-    """Rows from above, as ray_trace() yields them."""
+    """The view's picture. The first row is the uppermost, as in that of ray_trace()."""
     simple.SaveScreenshot(path_of("drawn.png"), VIEW, **options)
-    return pixels_of_file(path_of("drawn.png"))[::-1]
+    return read_image(path_of("drawn.png"))[::-1]
 
 
 def exported(**options):
     simple.ExportView(path_of("exported.png"), view=VIEW, **options)
-    return pixels_of_file(path_of("exported.png"))[::-1]
+    return read_image(path_of("exported.png"))[::-1]
 
 
 def is_nearly(one, other):
@@ -34,7 +34,7 @@ def is_what_the_view_shows():
     check(quality > 27, "the picture is that of the view")
     small = ray_trace(VIEW, path_of("small.png"), samples=1, size=(80, 60))
     check(small.shape == (60, 80, 3), "of the size asked for")
-    check(np.array_equal(pixels_of_file(path_of("small.png"))[::-1], small), "the file is the picture")
+    check(np.array_equal(read_image(path_of("small.png"))[::-1], small), "the file is the picture")
 
 
 def can_be_exported():

@@ -8,12 +8,11 @@ import sys
 
 import numpy as np
 from paraview import simple
-from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
 from scripting import (
     SPLATS, ball, check, contoured, covered, distance_in, leaves_of, load, look, make_view, number_of_points, path_of,
-    pixels, positions, shown, updated)
+    pixels, positions, shown, updated, vtk_data)
 
 BALL_POINTS = 39193  # of the ball, on any number of ranks
 YELLOW = [1.0, 1.0, 0.0]
@@ -28,7 +27,7 @@ def check_picture(passes, what):
 
 
 def shows_the_ball():
-    """320 pixels wide, as its parts are in other sizes and colors."""
+    """The ball is 320 pixels wide. Its area follows the radius scale and the actor's scale."""
     def area(image):
         return np.count_nonzero(covered(image)) / (np.pi * 160**2)
 
@@ -53,7 +52,7 @@ def shows_the_ball():
 
 
 def level_of_detail():
-    """What is drawn while the user interacts: ParaView's coarser surface, the same ball."""
+    """While the user interacts, ParaView draws a coarser surface of the same ball."""
     pictures = []
     for threshold in (0.0, 1000.0):
         VIEW.LODThreshold = threshold
@@ -63,9 +62,7 @@ def level_of_detail():
         grab.SetInput(VIEW.GetRenderWindow())
         grab.ShouldRerenderOff()
         grab.Update()
-        width, height, _ = grab.GetOutput().GetDimensions()
-        scalars = vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars())
-        pictures.append(scalars.reshape(height, width, -1)[..., :3].astype(int))
+        pictures.append(vtk_data.as_array(grab.GetOutput()))
     coarse, everything = pictures
     check(covered(coarse).sum() > 0.9 * covered(everything).sum(), "the ball in fewer triangles")
     check(not np.array_equal(coarse, everything), "fewer triangles while interacting")
@@ -99,7 +96,7 @@ def selection():
 
 
 def sharp_edges():
-    """With the fit for creases splats end there as they come, and do not extend beyond the cube."""
+    """With the fit for creases, splats end at creases by default and do not extend beyond the cube."""
     image = simple.Wavelet(WholeExtent=[-25, 25] * 3)
     source = distance_in(image, function="max(max(abs(coordsX),abs(coordsY)),abs(coordsZ))")
     cube = contoured(source, "r", 20.3, Projection="Cubic fit with creases")
@@ -117,7 +114,7 @@ def sharp_edges():
 
 
 def colors_and_hides_blocks(display):
-    """Of two spheres, to the left and to the right, as the Multi-block Inspector does."""
+    """Colors and hides a sphere on the left and one on the right, as the Multi-block Inspector does."""
     left, right = (200, 120), (200, 280)
     display.BlockColors = ["/Root/Sphere1", "1", "0", "0", "/Root/Sphere2", "0", "1", "0"]
     check_picture(lambda image: image[left][0] > 100 > 50 > image[left][1], "the left block is red")

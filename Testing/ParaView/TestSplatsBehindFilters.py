@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What filters leave of isopoints is drawn as splats too, unless it became a mesh."""
+"""Isopoints that have passed filters are drawn as splats too, unless a filter made a mesh of them."""
 
 import sys
 
@@ -98,7 +98,7 @@ def splats_stay():
 
 
 def shapes_are_hidden(sources):
-    """From menus of arrays, and from tables of points."""
+    """Menus of arrays and tables of points do not show the arrays of shapes."""
     for source in sources:
         check(not any("Splat" in name for name in source.PointData.keys()), "arrays of points")
         check({"SplatAxis", "SplatPolygon"} <= set(source.CellData.keys()), "arrays of cells")

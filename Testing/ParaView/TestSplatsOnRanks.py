@@ -11,7 +11,7 @@ import numpy as np
 from paraview import simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from scripting import SPLATS, check, contoured, leaves_of, load, make_view, pixels, pixels_of_file, psnr, updated
+from scripting import SPLATS, check, contoured, leaves_of, load, make_view, pixels, read_image, psnr, updated
 
 SAMPLES = """
 import numpy as np
@@ -53,7 +53,7 @@ def shows_what_one_rank_does(count):
     for camera in CAMERAS:
         look_from(camera)
         found = pixels(VIEW, os.path.join(FOLDER, f"{count}-{camera}-{SIZE}.png"))
-        quality = psnr(found, pixels_of_file(os.path.join(FOLDER, f"{count}-{camera}-1.png")))
+        quality = psnr(found, read_image(os.path.join(FOLDER, f"{count}-{camera}-1.png")))
         check((found < 250).any(axis=2).mean() > 0.3, "the surface is seen")
         print(f"{count} samples, {camera}: {quality:.1f} dB")
         check(quality >= 45.0, f"{quality} dB of {count} samples, {camera}")

@@ -8,7 +8,8 @@ import time
 import xml.etree.ElementTree as ElementTree
 
 import playing
-from playing import ADVANCED, APPLY, FOLDER, FRAME, WINDOW, Mouse, check, choose, event, expect, expect_of, set_property
+from playing import (
+    ADVANCED, APPLY, FOLDER, FRAME, WINDOW, Mouse, check, choose, event, expect, expect_of, run, set_property)
 
 PLUGIN, PARAVIEW, FILTER_XML, EXPORTER_XML = sys.argv[1:]
 NAMES = "Scattered Isopoints", "Scattered Isosurface"
@@ -21,7 +22,7 @@ def play(events, more="", **options):
 
 
 def version():
-    """Since ParaView 5.13 the search and labels are other widgets."""
+    """ParaView's version. Since 5.13 the search and labels are other widgets."""
     said = subprocess.run([PARAVIEW, "--version"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     return tuple(map(int, re.search(r"(\d+)\.(\d+)", said.stdout).groups()))
 
@@ -40,7 +41,7 @@ def inputs_are_hidden():
 
 
 def rows_follow_others():
-    """What has no effect is grayed out or hidden."""
+    """Rows of properties without effect are grayed out or hidden."""
     for name, own in zip(NAMES, (
             [expect("NumberOfNeighbors", "enabled"), expect("MinimumSpacing", "enabled"),
              set_property("Projection", "Linear fit"), expect("MinimumSpacing", "enabled", "false")],
@@ -53,8 +54,7 @@ def rows_follow_others():
 
 
 def counters_are_texts():
-    """Counts and what they are a part of, of each update, in labels; one of the wavelet's 9261 samples
-    is not finite."""
+    """Labels show counts of the last update with their totals. One of the wavelet's 9261 samples is not finite."""
     more = """
 isopoints = simple.ProgrammableFilter(Input=wavelet, CopyArrays=1, Script='''
 import numpy as np
@@ -102,7 +102,7 @@ def search_finds_the_filters_by_contour():
 
 
 def an_empty_slice_is_explained():
-    """Once, by the filter to slice; a slice of a grid is no reason."""
+    """One message names the filter to slice instead. A slice of a grid causes no message."""
     for more, count in (("", 1), (WAVELET, 0)):
         _, said = play([choose("Slice"), APPLY], more)
         explained = others_of(said).count("Scattered Isosurface")
@@ -110,7 +110,7 @@ def an_empty_slice_is_explained():
 
 
 def isovalues_follow_the_array():
-    """In the panel, before anything is applied."""
+    """The panel changes the isovalue before the user applies anything."""
     more = """
 isopoints = simple.Calculator(Input=wavelet, ResultArrayName="small", Function="RTData / 1000")
 isopoints.UpdatePipeline()
@@ -128,7 +128,7 @@ def stop_tracing(paraview):
 
 
 def pictures_are_traced():
-    """By an entry of the menu, with a button that stops it; an empty view is not."""
+    """A menu entry traces the picture, and a button stops it. An empty view cannot be traced."""
     path = FOLDER / "traced.png"
     options = WINDOW + "RayTracingOptions/"
     panel = options + "scrollArea/qt_scrollarea_viewport/Container/ProxyWidget/"
@@ -172,7 +172,7 @@ view.GetRenderWindow().AddObserver("EndEvent", tell)
 
 
 def selected_points_keep_their_shapes():
-    """Extract Selection has the vertices of points; the active selection can be added to as before."""
+    """Extract Selection yields the vertices of points. Users can still add to the active selection."""
     once = [choose("ExtractSelection"), APPLY]
     shown, said = play(once, SELECTS)
     check(shown["ExtractSelection1"] == [1, SPLATS], "the selection as splats")
@@ -183,8 +183,5 @@ def selected_points_keep_their_shapes():
         check(name in play(events, more)[0], f"{name}, an extract of nothing")
 
 
-for test in (inputs_are_hidden, rows_follow_others, counters_are_texts, help_is_at_labels,
-             search_finds_the_filters_by_contour, an_empty_slice_is_explained, isovalues_follow_the_array,
-             selected_points_keep_their_shapes, pictures_are_traced):
-    print(test.__name__, flush=True)
-    test()
+run(inputs_are_hidden, rows_follow_others, counters_are_texts, help_is_at_labels, search_finds_the_filters_by_contour,
+    an_empty_slice_is_explained, isovalues_follow_the_array, selected_points_keep_their_shapes, pictures_are_traced)

@@ -13,6 +13,9 @@ import tempfile
 import threading
 from xml.sax.saxutils import quoteattr
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "Python"))
+from checking import check, run  # noqa: E402, F401
+
 # Runs in the window. It reports at each picture, the last time at the end.
 SCRIPT = """
 import json
@@ -47,11 +50,6 @@ PANEL = WINDOW + "propertiesDock/propertiesPanel/"
 FRAME = PANEL + "scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/PropertiesFrame/ProxyPanel/"
 
 
-def check(condition, message):
-    if not condition:
-        sys.exit("failed: " + message)
-
-
 def event(item, command, arguments=""):
     return f"<pqevent object='{item}' command='{command}' arguments={quoteattr(arguments)} />"
 
@@ -70,7 +68,7 @@ def expect_of(item, state, value):
 
 
 def expect(name, state, value="true"):
-    """That the row of a property is in a state: "enabled" or "visible"."""
+    """Checks that the row of a property is in a state: "enabled" or "visible"."""
     return expect_of(FRAME + name, state, value)
 
 

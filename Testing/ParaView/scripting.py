@@ -10,26 +10,17 @@ import tempfile
 
 import numpy as np
 from paraview import servermanager, simple
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLogger, vtkOutputWindow, vtkStringOutputWindow
-from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
-from vtkmodules.vtkIOImage import vtkPNGReader
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../Python"))
+import vtk_data  # noqa: E402
+from checking import check, run  # noqa: E402, F401
+from vtk_data import named, psnr, read_image, set_all  # noqa: E402, F401
 
 _temporary = tempfile.TemporaryDirectory()  # removed when the script ends
 FOLDER = _temporary.name
 SPLATS = "Isopoint Splats"
-
-
-def check(condition, message):
-    if not condition:
-        sys.exit("failed: " + message)
-
-
-def run(*tests):
-    for test in tests:
-        print(test.__name__, flush=True)
-        test()
-    print("passed")
 
 
 def path_of(name):
@@ -38,7 +29,7 @@ def path_of(name):
 
 @contextlib.contextmanager
 def messages():
-    """Collects what is reported meanwhile, in a list."""
+    """Collects in a list what VTK reports within the block."""
     usual, collecting, texts = vtkOutputWindow.GetInstance(), vtkStringOutputWindow(), []
     verbosity = vtkLogger.GetCurrentVerbosityCutoff()
     vtkOutputWindow.SetInstance(collecting)
@@ -59,10 +50,11 @@ def produced(data):
     return source
 
 
-def add_array(attributes, name, values):
-    array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
-    array.SetName(name)
-    attributes.AddArray(array)
+def table_of_points(**columns):
+    """Points that ParaView reads from a file of comma-separated columns, x, y and z among them."""
+    path = path_of("points.csv")
+    np.savetxt(path, np.column_stack(list(columns.values())), delimiter=",", header=",".join(columns), comments="")
+    return simple.TableToPoints(Input=simple.CSVReader(FileName=[path]), XColumn="x", YColumn="y", ZColumn="z")
 
 
 def distance_in(source, association="Point Data", function="mag(coords)"):
@@ -97,15 +89,8 @@ def offered_arrays(proxy):
 
 
 def leaves_of(proxy):
-    """The data objects of a source, as one or as blocks."""
-    data = servermanager.Fetch(proxy)
-    if not isinstance(data, vtkCompositeDataSet):
-        return [data]
-    iterator, found = data.NewIterator(), []
-    while not iterator.IsDoneWithTraversal():
-        found.append(iterator.GetCurrentDataObject())
-        iterator.GoToNextItem()
-    return found
+    """The data object of a source, or the leaves of a composite."""
+    return vtk_data.leaves_of(servermanager.Fetch(proxy))
 
 
 def positions(proxy):
@@ -114,7 +99,7 @@ def positions(proxy):
 
 
 def make_view(width, height=None, background=(0.0, 0.0, 1.0)):
-    """A view of one color, blue by default, where nothing is."""
+    """A view with a background of one color, blue by default."""
     view = simple.CreateView("RenderView")
     view.ViewSize = [width, height or width]
     view.OrientationAxesVisibility = 0
@@ -124,7 +109,7 @@ def make_view(width, height=None, background=(0.0, 0.0, 1.0)):
 
 
 def look(view, height, scale, middle=(0.0, 0.0, 0.0)):
-    """From the front, in parallel; scale is half of what is seen along an edge."""
+    """Looks from the front in parallel projection. The scale is half the height of what is seen."""
     view.CameraParallelProjection = 1
     view.CameraPosition = [middle[0], middle[1], middle[2] + height]
     view.CameraFocalPoint = middle
@@ -155,21 +140,7 @@ def pixels(view, path=None):
     """The picture as an array, rows from below; on the first rank only, else None."""
     path = path or path_of("view.png")
     simple.SaveScreenshot(path, view)
-    return pixels_of_file(path) if os.path.exists(path) else None
-
-
-def pixels_of_file(path):
-    reader = vtkPNGReader()
-    reader.SetFileName(path)
-    reader.Update()
-    width, height, _ = reader.GetOutput().GetDimensions()
-    scalars = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())
-    return scalars.reshape(height, width, -1)[..., :3].astype(int)
-
-
-def psnr(one, other):
-    error = np.mean((one.astype(float) - other) ** 2)
-    return 10.0 * np.log10(255.0**2 / np.maximum(error, 1e-10))
+    return read_image(path) if os.path.exists(path) else None
 
 
 def connect_to(*server):

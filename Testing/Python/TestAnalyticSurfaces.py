@@ -27,43 +27,27 @@ def positions_beside(surface, count, random):
 
 
 class AnalyticSurfaces(unittest.TestCase):
-    def check_each(self, check):
+    def test_feet_are_the_nearest_points_and_have_normals(self):
         for field in FIELDS:
-            with self.subTest(field.__name__):
-                random = np.random.default_rng(1)
-                surface = field(SPACING)
-                check(surface, positions_beside(surface, 2000, random), random)
-
-    def test_feet_separate_smaller_from_larger_values(self):
-        def check(surface, positions, _):
+            random = np.random.default_rng(1)
+            surface = field(SPACING)
+            positions = positions_beside(surface, 2000, random)
             feet, normals = surface.feet(positions)
-            inwards = 1e-6 * surfaces.unit(normals.sum(axis=1))
-            self.assertTrue((surface.value(feet + inwards) < surface.isovalue).all())
-            self.assertTrue((surface.value(feet - inwards) > surface.isovalue).all())
-
-        self.check_each(check)
-
-    def test_normals_have_length_one_or_none(self):
-        def check(surface, positions, _):
-            lengths = surfaces.length(surface.feet(positions)[1])
-            self.assertTrue(((np.abs(lengths - 1) < 1e-12) | (lengths == 0)).all())
-            self.assertTrue((lengths.max(axis=1) > 0).all())
-
-        self.check_each(check)
-
-    def test_no_other_point_is_nearer(self):
-        def check(surface, positions, random):
-            feet, _ = surface.feet(positions)
-            distances = surfaces.length(positions - feet)
-            # Of the surface at large, and around each foot.
-            others, _ = surface.feet(positions_beside(surface, 4000, random))
-            for position, distance in zip(positions[:500], distances):
-                self.assertGreater(surfaces.length(others - position).min(), distance - 1e-9)
-            for size in (0.001, 0.003, 0.01, 0.03):
-                others, _ = surface.feet(feet + size * surfaces.uniform(len(feet), random))
-                self.assertTrue((surfaces.length(others - positions) > distances - 1e-9).all())
-
-        self.check_each(check)
+            with self.subTest(field.__name__):
+                lengths = surfaces.length(normals)
+                self.assertTrue(((np.abs(lengths - 1) < 1e-12) | (lengths == 0)).all())
+                self.assertTrue((lengths.max(axis=1) > 0).all())
+                inwards = 1e-6 * surfaces.unit(normals.sum(axis=1))
+                self.assertTrue((surface.value(feet + inwards) < surface.isovalue).all())
+                self.assertTrue((surface.value(feet - inwards) > surface.isovalue).all())
+                # No other point is nearer, neither of the surface at large, nor around each foot.
+                distances = surfaces.length(positions - feet)
+                others, _ = surface.feet(positions_beside(surface, 4000, random))
+                for position, distance in zip(positions[:500], distances):
+                    self.assertGreater(surfaces.length(others - position).min(), distance - 1e-9)
+                for size in (0.001, 0.003, 0.01, 0.03):
+                    others, _ = surface.feet(feet + size * surfaces.uniform(len(feet), random))
+                    self.assertTrue((surfaces.length(others - positions) > distances - 1e-9).all())
 
     def test_samplings_fill_the_cube_and_nothing_else(self):
         for sampling in SAMPLINGS:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The benchmarks that need neither files nor a window run to their end, with few samples. What they
-measure is not looked at."""
+"""The benchmarks that need neither files nor a window run to their end with few samples. This test does not
+look at what they measure."""
 
 import pathlib
 import subprocess
@@ -11,7 +11,7 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 FOLDER = pathlib.Path(__file__).parents[2] / "Benchmark"
 COMMANDS = (
-    "accuracy.py --samples 2000 --fields sphere,cube --noise 1", "cost.py --samples 0.02 --runs 1",
+    "accuracy.py --samples 2000 --fields sphere cube --noise 1", "cost.py --samples 0.02 --runs 1",
     "defaults.py --samples 0.02 --runs 1", "triangle_quality.py --samples 0.02", "smoothing.py --samples 2000",
     "ghosts.py --side 12", "progress.py --samples 20000", "speed.py --largest 0.01")
 

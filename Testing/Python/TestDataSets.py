@@ -9,13 +9,13 @@ import warnings
 
 import numpy as np
 from scatteredisopoints import Samples, contour, contouring
-from vtk_data import assert_same, centers_in, cloud_of, named, points_of, positions_in
+from vtk_data import amr_of, assert_same, blocks_of, centers_in, cloud_of, named, points_of, positions_in, set_all
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkBitArray, vtkMath
 from vtkmodules.vtkCommonDataModel import (
-    VTK_EMPTY_CELL, VTK_TETRA, vtkAMRBox, vtkAMRUtilities, vtkCellArray, vtkHyperTreeGrid, vtkImageData,
-    vtkMultiBlockDataSet, vtkOverlappingAMR, vtkPartitionedDataSet, vtkPartitionedDataSetCollection, vtkPolyData,
-    vtkRectilinearGrid, vtkStructuredGrid, vtkTable, vtkUniformGrid, vtkUnstructuredGrid)
+    VTK_EMPTY_CELL, VTK_TETRA, vtkAMRUtilities, vtkCellArray, vtkHyperTreeGrid, vtkImageData, vtkMultiBlockDataSet,
+    vtkPartitionedDataSet, vtkPartitionedDataSetCollection, vtkPolyData, vtkRectilinearGrid, vtkStructuredGrid,
+    vtkTable, vtkUnstructuredGrid)
 
 RANDOM = np.random.default_rng(1)
 
@@ -36,10 +36,7 @@ def cloud(count=3000, dtype=np.float64):
 
 
 def image():
-    data = vtkImageData()
-    data.SetExtent(-3, 12, 2, 15, 5, 19)
-    data.SetSpacing(0.1, 0.07, 0.13)
-    data.SetOrigin(1e3, -3.3, 0.7)
+    data = set_all(vtkImageData(), Extent=(-3, 12, 2, 15, 5, 19), Spacing=(0.1, 0.07, 0.13), Origin=(1e3, -3.3, 0.7))
     matrix = np.eye(3)
     vtkMath.QuaternionToMatrix3x3((0.5, 0.1, 0.7, 0.3), matrix)
     if hasattr(data, "SetDirectionMatrix"):
@@ -48,17 +45,13 @@ def image():
 
 
 def flat_image():
-    data = vtkImageData()
-    data.SetDimensions(40, 30, 1)
-    return data
+    return set_all(vtkImageData(), Dimensions=(40, 30, 1))
 
 
 def rectilinear():
-    data = vtkRectilinearGrid()
-    data.SetDimensions(12, 13, 14)
-    for count, set_ in ((12, data.SetXCoordinates), (13, data.SetYCoordinates), (14, data.SetZCoordinates)):
-        set_(numpy_to_vtk(np.cumsum(RANDOM.random(count)).astype(np.float32), deep=True))
-    return data
+    return set_all(vtkRectilinearGrid(), Dimensions=(12, 13, 14), **{
+        axis + "Coordinates": numpy_to_vtk(np.cumsum(RANDOM.random(count)).astype(np.float32), deep=True)
+        for axis, count in (("X", 12), ("Y", 13), ("Z", 14))})
 
 
 def structured(dimensions=(11, 12, 13)):
@@ -145,13 +138,7 @@ class DataSetsTest(unittest.TestCase):
         third, _ = prepared(cloud(2000, np.float32))
         third.GetPointData().RemoveArray("count")
         without = cloud(100)
-        blocks = vtkMultiBlockDataSet()
-        nested = vtkMultiBlockDataSet()
-        nested.SetBlock(0, third)
-        nested.SetBlock(2, without)
-        blocks.SetBlock(0, first)
-        blocks.SetBlock(1, nested)
-        blocks.SetBlock(3, second)
+        blocks = blocks_of(first, blocks_of(third, None, without), None, second)
         self.assertGreater(self.same(blocks, "distance", [isovalue]), 100)
         with self.assertWarnsRegex(RuntimeWarning, "100 points or cells are left out"):
             Samples(blocks, "distance").contour(isovalue)
@@ -174,7 +161,7 @@ class DataSetsTest(unittest.TestCase):
         self.assertIn("second", Samples(blocks).contour(0.5).arrays)
 
     def test_levels_of_an_amr(self):
-        levels = amr()
+        levels = amr_of("distance", lambda p: np.linalg.norm(p - 0.5, axis=1), ((0, 0, 10), (1, 6, 8)))
         vtkAMRUtilities.BlankCells(levels)
         self.assertGreater(self.same(levels, "distance", [0.3]), 100)
 
@@ -271,25 +258,6 @@ class DataSetsTest(unittest.TestCase):
                 Samples(*arguments)
         with self.assertRaisesRegex(TypeError, "add them to the data set"):
             Samples(data, "distance").contour(0.3, arrays={"other": np.zeros(3000)})
-
-
-def amr():
-    """Two levels around the middle of the unit cube, the finer one over a part of the coarser."""
-    levels = vtkOverlappingAMR()
-    levels.Initialize(2, [1, 1])
-    levels.SetOrigin([0.0, 0.0, 0.0])
-    levels.SetGridDescription(8)  # VTK_XYZ_GRID
-    for level, (spacing, low, cells) in enumerate(((0.1, 0, 10), (0.05, 6, 8))):
-        grid = vtkUniformGrid()
-        grid.SetOrigin(*3 * [low * spacing])
-        grid.SetSpacing(*3 * [spacing])
-        grid.SetDimensions(*3 * [cells + 1])
-        grid.GetCellData().AddArray(named("distance", np.linalg.norm(centers_in(grid) - 0.5, axis=1)))
-        levels.SetSpacing(level, 3 * [spacing])
-        levels.SetAMRBox(level, 0, vtkAMRBox(*3 * [low], *3 * [low + cells - 1]))
-        levels.SetDataSet(level, 0, grid)
-        levels.SetRefinementRatio(level, 2)
-    return levels
 
 
 if __name__ == "__main__":

@@ -166,9 +166,11 @@ class Arrays(unittest.TestCase):
         for arguments, error, text in (
                 ((positions[:, :2], values), ValueError, r"\(100, 2\).*\(n, 3\).*zeros"),
                 ((positions.ravel(), values), ValueError, r"\(300,\).*\(n, 3\)"),
-                ((3.0, values), ValueError, r"\(\).*\(n, 3\)"), ((positions, 3.0), ValueError, r"values.*\(\).*\(100,\)"),
+                ((3.0, values), ValueError, r"\(\).*\(n, 3\)"),
+                ((positions, 3.0), ValueError, r"values.*\(\).*\(100,\)"),
                 ((positions, values[:99]), ValueError, r"\(99,\).*\(100,\)"),
-                ((positions, positions), ValueError, r"values.*\(100, 3\)"), ((positions,), TypeError, "values.*missing"),
+                ((positions, positions), ValueError, r"values.*\(100, 3\)"),
+                ((positions,), TypeError, "values.*missing"),
                 ((positions * 1j, values), TypeError, "positions.*complex128"),
                 ((positions, ["a"] * 100), TypeError, "values.*type"),
                 ((positions, np.full(100, None)), TypeError, "values.*object"),
@@ -184,9 +186,11 @@ class Arrays(unittest.TestCase):
                 (dict(arrays={"a": values[:3]}), ValueError, "shape"), (dict(arrays=[values]), TypeError, "mapping"),
                 (dict(arrays={"values": values}), ValueError, "name"), (dict(gap=2), TypeError, "gap.*drop_gaps"),
                 (dict(size=2), TypeError, "size"), (dict(triangles, angle=30.0), TypeError, "angle"),
-                (dict(regularize=True), TypeError, "regularize"), (dict(triangles, regularize=2), ValueError, "regularize"),
+                (dict(regularize=True), TypeError, "regularize"),
+                (dict(triangles, regularize=2), ValueError, "regularize"),
                 (dict(angle=200.0), ValueError, "angle.*200.*180"), (dict(angle="wide"), ValueError, "angle"),
-                (dict(number_of_neighbors=2**32 + 12), ValueError, "range"), (dict(drop_gaps=2), ValueError, "drop_gaps"),
+                (dict(number_of_neighbors=2**32 + 12), ValueError, "range"),
+                (dict(drop_gaps=2), ValueError, "drop_gaps"),
                 *([] if contouring.compiled_filters() else [(dict(controller=object()), TypeError, "controller")])):
             with self.subTest(options=list(options)), self.assertRaisesRegex(error, text):
                 contour(positions, values, **options)
@@ -221,24 +225,6 @@ class Results(unittest.TestCase):
         for options in (dict(triangles=True), dict(compute_splats=False), dict(compute_normals=False)):
             with self.assertRaisesRegex(ValueError, "has no splats"):
                 contour(positions, values, 0.3, **options).splats()
-
-    def test_triangles_are_closed(self):
-        positions, values = cloud(20000, np.float32)
-        for regularize in (False, True):
-            surface = contour(positions, values, [0.2, 0.3], triangles=True, regularize=regularize)
-            edges = np.sort(surface.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-            _, counts = np.unique(edges, axis=0, return_counts=True)
-            self.assertEqual(counts.tolist(), [2] * len(counts))
-            self.assertEqual(surface.arrays["values"].dtype, np.float32)
-            self.assertEqual(set(surface.arrays["values"]), {np.float32(0.2), np.float32(0.3)})
-
-    def test_regularized_triangles_are_fewer(self):
-        positions, values = cloud(20000)
-        regular, exact = (contour(positions, values, 0.3, triangles=True, **options)
-                          for options in ({}, {"regularize": False}))
-        self.assertLess(len(regular.triangles), len(exact.triangles) / 2)
-        samples = Samples(positions, values)
-        self.assertEqual(contents(samples.contour(0.3, triangles=True, regularize=False)), contents(exact))
 
     def test_arrays_are_interpolated(self):
         positions, values = cloud()
@@ -356,16 +342,6 @@ class KeptTrees(unittest.TestCase):
 
         run_together(lambda: extract(0), lambda: extract(1))
         self.assertEqual(found, expected)
-
-    def test_two_objects_on_two_threads(self):
-        found = {}
-
-        def extract(seed):
-            found[seed] = contents(contour(*cloud(20000, seed=seed), 0.3, triangles=True))
-
-        run_together(lambda: extract(1), lambda: extract(2))
-        for seed in (1, 2):
-            self.assertEqual(found[seed], contents(contour(*cloud(20000, seed=seed), 0.3, triangles=True)))
 
     def test_memory_is_given_back(self):
         statm = pathlib.Path("/proc/self/statm")
@@ -485,7 +461,8 @@ class Interruptions(unittest.TestCase):
                     "time.sleep(0.3)\n"), "", none),
                 ("calls when the interpreter ends", (
                     "import atexit\n"
-                    "atexit.register(lambda: print(len(contour(positions, values, 1.5)) > 1000))\n"), "", "True\n", none)):
+                    "atexit.register(lambda: print(len(contour(positions, values, 1.5)) > 1000))\n"),
+                 "", "True\n", none)):
             with self.subTest(name):
                 result = subprocess.run([sys.executable, "-c", before + begin + script], capture_output=True, text=True)
                 self.assertEqual(result.stdout, output)

@@ -176,7 +176,8 @@ class Accessor(unittest.TestCase):
         data = cloud()
         for source, arguments, options, error, text in (
                 (pv.Table(np.zeros((3, 2))), [], {}, TypeError, "Table"), (data, ["speed"], {}, ValueError, "speed"),
-                (data, ["place"], {}, ValueError, "3 components"), (data, [np.zeros(3)], {}, ValueError, "3 values.*20000"),
+                (data, ["place"], {}, ValueError, "3 components"),
+                (data, [np.zeros(3)], {}, ValueError, "3 values.*20000"),
                 (pv.PolyData(data.points), [], {}, ValueError, "scalars"), (data, [], dict(gaps=1), TypeError, "gaps")):
             with self.assertRaisesRegex(error, text):
                 source.scattered.contour([0.3], *arguments, **options)

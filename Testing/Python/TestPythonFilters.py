@@ -9,10 +9,10 @@ import fingerprint
 import numpy as np
 import scatteredisopoints
 from scatteredisopoints import _vtk
-from vtk_data import assert_same, cloud_of, configured, named, updated
+from vtk_data import assert_same, blocks_of, cloud_of, configured, named, updated
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import VTK_STRING
-from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet, vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
 
 PAIRS = [(getattr(scatteredisopoints, name), getattr(_vtk, name))
@@ -33,13 +33,6 @@ def own_methods(class_):
 def cloud(count=5000):
     positions = np.random.default_rng(1).random((count, 3))
     return cloud_of(positions, np.linalg.norm(positions - 0.5, axis=1), "distance")
-
-
-def blocks_of(*blocks):
-    data = vtkMultiBlockDataSet()
-    for i, block in enumerate(blocks):
-        data.SetBlock(i, block)
-    return data
 
 
 def observed(filter_):
@@ -65,6 +58,7 @@ class PythonFilters(unittest.TestCase):
             self.assertGreater(len(ours.PROPERTIES), 1)
             for name in ours.PROPERTIES:
                 pair = ours(), theirs()
+                self.assertIn(f"{name}: ", str(pair[1]))
                 for value in (None, -5, -1, 0, 1, 2, 3, 4, 5, 12, 10**6):
                     for filter_ in pair if value is not None else ():
                         getattr(filter_, "Set" + name)(value)
@@ -99,7 +93,7 @@ class PythonFilters(unittest.TestCase):
         self.assertGreater(with_splats, 10)
 
     def same_splats(self, points):
-        """The same triangles, isopoints of vertices, and means of floating-point arrays. @returns whether there are any"""
+        """The same triangles, points of vertices, and means of floating-point arrays. @returns whether there are any"""
         arrays = points.GetPointData() if points.IsA("vtkPolyData") and points.GetNumberOfPoints() else None
         if not arrays or not arrays.HasArray("Radius") or not arrays.HasArray("Normals"):
             return False
@@ -148,7 +142,8 @@ class PythonFilters(unittest.TestCase):
                 (speed, errno.EINVAL, cloud(), False), (speed, errno.EINVAL, blocks_of(cloud()), True),
                 (("SetAngle", 200.0), errno.EINVAL, blocks_of(cloud()), True),
                 (("SetInputData", vtkPolyData()), errno.EINVAL, cloud(), False),
-                (("SetValue", 0, float("nan")), errno.EINVAL, cloud(), False), (("SetValue", 0, 99.0), 0, cloud(), False)):
+                (("SetValue", 0, float("nan")), errno.EINVAL, cloud(), False),
+                (("SetValue", 0, 99.0), 0, cloud(), False)):
             for pair in PAIRS[:1 if change[0] == "SetAngle" else 2]:
                 found = []
                 for class_ in pair:

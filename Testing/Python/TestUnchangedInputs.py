@@ -5,12 +5,11 @@ import unittest
 
 import numpy as np
 from scatteredisopoints import vtkIsopointSplatPolygons, vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
-from vtk_data import cloud_of, configured, leaves_of, named, names_of, positions_in
+from vtk_data import blocks_of, cloud_of, configured, leaves_of, named, names_of, positions_in
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkStringArray
 from vtkmodules.vtkCommonDataModel import (
-    vtkCompositeDataSet, vtkDataObject, vtkDataSetAttributes, vtkImageData, vtkMultiBlockDataSet,
-    vtkPartitionedDataSetCollection)
+    vtkCompositeDataSet, vtkDataObject, vtkDataSetAttributes, vtkImageData, vtkPartitionedDataSetCollection)
 
 # For each filter a property, and the values of the updates.
 CHANGES = {
@@ -21,7 +20,7 @@ CHANGES = {
 
 
 def add_arrays(data):
-    """Values, normals and ghosts of the points, and fields."""
+    """Adds values, normals and ghosts of the points, and field data."""
     if not isinstance(data, vtkCompositeDataSet):
         places = positions_in(data)
         ghosts = (np.arange(len(places)) % 50 == 0).astype(np.uint8)
@@ -45,9 +44,7 @@ def image():
 
 
 def blocks():
-    data = vtkMultiBlockDataSet()
-    data.SetBlock(0, cloud())
-    data.SetBlock(2, image())
+    data = blocks_of(cloud(), None, image())
     data.GetMetaData(0).Set(vtkCompositeDataSet.NAME(), "left")
     return add_arrays(data)
 

@@ -11,7 +11,7 @@ from scatteredisopoints import contour, contouring
 
 
 def samples(number):
-    """Of sums, products and square roots alone, which all versions of NumPy round alike."""
+    """Samples that need only sums, products and square roots, which all versions of NumPy round alike."""
     random = np.random.default_rng(number)
     positions = random.random((4000, 3))
     kind = number % 4

@@ -16,10 +16,10 @@ import hashlib
 
 import numpy as np
 from scatteredisopoints import vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
-from vtk_data import cloud_of, leaves_of, named
+from vtk_data import blocks_of, cloud_of, leaves_of, named
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkStringArray, vtkUnsignedCharArray
-from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet, vtkPolyData, vtkRectilinearGrid
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData, vtkRectilinearGrid
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 RANKS = vtkMultiProcessController.GetGlobalController()
@@ -99,10 +99,7 @@ def image(kinds, types, random):
 
 
 def blocks(kinds, types, random):
-    data = vtkMultiBlockDataSet()
-    for i in range(int(random.integers(2, 5))):
-        data.SetBlock(i, cloud(kinds, types, random, 0.7 * i * types[2]))
-    return data
+    return blocks_of(*(cloud(kinds, types, random, 0.7 * i * types[2]) for i in range(int(random.integers(2, 5)))))
 
 
 def choose(random, *options):
@@ -110,7 +107,7 @@ def choose(random, *options):
 
 
 def configured(number, filter_class):
-    """The filter with the input and those options of a combination that it has."""
+    """A filter with the input of a combination, and with those of its options that the filter has."""
     random = np.random.default_rng(number)
     kinds = (
         choose(random, "uniform", "uniform", "clustered", "lattice", "coarse", "lines", "slab",

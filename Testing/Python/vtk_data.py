@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Data sets of VTK, what filters make of them, and whether two are the same."""
+"""Makes and reads data sets and pictures of VTK, runs filters, and compares their outputs."""
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
-from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkPolyData
+from vtkmodules.vtkCommonDataModel import (
+    vtkAMRBox, vtkCompositeDataSet, vtkMultiBlockDataSet, vtkOverlappingAMR, vtkPolyData, vtkUniformGrid)
+from vtkmodules.vtkIOImage import vtkPNGReader
 
 
 def named(name, values):
@@ -43,6 +45,34 @@ def centers_in(data):
                      for cell in cells])
 
 
+def blocks_of(*blocks):
+    data = vtkMultiBlockDataSet()
+    for i, block in enumerate(blocks):
+        data.SetBlock(i, block)
+    return data
+
+
+def amr_of(name, values_of, boxes, is_here=lambda number: True):
+    """Boxes (level, lowest index of a cell, cells along an edge) with values of their cells' centers. The coarsest
+    cells have edges of length 0.1. Boxes that are not here have no data."""
+    levels, counts = vtkOverlappingAMR(), [0] * (1 + max(level for level, _, _ in boxes))
+    levels.Initialize(len(counts), [sum(box[0] == level for box in boxes) for level in range(len(counts))])
+    levels.SetOrigin([0.0, 0.0, 0.0])
+    levels.SetGridDescription(8)  # VTK_XYZ_GRID
+    for number, (level, low, cells) in enumerate(boxes):
+        spacing, index = 0.1 / 2**level, counts[level]
+        counts[level] += 1
+        levels.SetSpacing(level, 3 * [spacing])
+        levels.SetAMRBox(level, index, vtkAMRBox(3 * [low], 3 * [low + cells - 1]))
+        levels.SetRefinementRatio(level, 2)
+        if is_here(number):
+            grid = set_all(
+                vtkUniformGrid(), Origin=3 * [low * spacing], Spacing=3 * [spacing], Dimensions=3 * [cells + 1])
+            grid.GetCellData().AddArray(named(name, values_of(centers_in(grid))))
+            levels.SetDataSet(level, index, grid)
+    return levels
+
+
 def leaves_of(data, **options):
     """The data sets of a composite in order, or the data set itself."""
     if not isinstance(data, vtkCompositeDataSet):
@@ -57,7 +87,7 @@ def leaves_of(data, **options):
 
 
 def names_of(data):
-    """The names of the blocks of a composite that have some, on the way to its leaves as well."""
+    """The names of all blocks of a composite, those of inner nodes too. None stands for a block without a name."""
     iterator, found = data.NewIterator(), []
     iterator.SkipEmptyNodesOff()
     if hasattr(iterator, "VisitOnlyLeavesOff"):
@@ -70,14 +100,38 @@ def names_of(data):
     return found
 
 
+def as_array(image):
+    """A picture as an array, its first row at the bottom."""
+    width, height, _ = image.GetDimensions()
+    scalars = vtk_to_numpy(image.GetPointData().GetScalars())
+    return scalars.reshape(height, width, -1)[..., :3].astype(float)
+
+
+def read_image(path):
+    reader = vtkPNGReader()
+    reader.SetFileName(path)
+    reader.Update()
+    return as_array(reader.GetOutput())
+
+
+def psnr(a, b):
+    """Peak signal to noise ratio in decibels."""
+    error = np.mean((a - b) ** 2)
+    return np.inf if error == 0 else 10 * np.log10(255**2 / error)
+
+
+def set_all(instance, **properties):
+    """Calls the methods Set... of an object; a tuple has several arguments."""
+    for name, value in properties.items():
+        getattr(instance, "Set" + name)(*(value if isinstance(value, tuple) else (value,)))
+    return instance
+
+
 def configured(kind, data, isovalues=(), **properties):
-    filter_ = kind()
-    filter_.SetInputDataObject(data)
+    filter_ = set_all(kind(), InputDataObject=data)
     for i, isovalue in enumerate(isovalues):
         filter_.SetValue(i, isovalue)
-    for name, value in properties.items():
-        getattr(filter_, "Set" + name)(value)
-    return filter_
+    return set_all(filter_, **properties)
 
 
 def updated(*arguments, **properties):
@@ -87,7 +141,7 @@ def updated(*arguments, **properties):
 
 
 def assert_same(test, ours, theirs):
-    """The same class, points, cells, arrays and active arrays, to the byte, in all leaves; the same names of blocks."""
+    """Checks that leaves have the same class, points, cells, arrays and active arrays, and blocks the same names."""
     test.assertEqual(ours.GetClassName(), theirs.GetClassName())
     if isinstance(theirs, vtkCompositeDataSet):
         pair = [leaves_of(each, skips_empty=False) for each in (ours, theirs)]

@@ -20,7 +20,7 @@ def traced(scene, shadows=False):
 
 
 def compare(name, actor, bar=33.0, peels=False):
-    """With the window's picture in four times as many pixels, averaged."""
+    """Compares the traced picture with the window's, which has four times as many pixels, averaged."""
     scene = Scene(actor, size=2 * SIZE)
     if peels:
         scene.peel()
@@ -43,7 +43,7 @@ def shapes():
 
 
 def small_bodies():
-    """A ball of four spacings casts no shadow on its own lit side, coarse as its triangles are."""
+    """A ball with a radius of four spacings has coarse triangles, but no shadow on its own lit side."""
     spacing = 0.25
     ball = isopoints(ball_field, -1.5, 1.5, round((3 / spacing) ** 3))
     for name, actor in (("splats", actor_of(ball)), ("mesh", actor_of(sphere_mesh(24, 12, Radius=1.0), False))):

@@ -38,7 +38,8 @@ def tiles():
 
 
 def renderer_of(*actors, center=(0.0, 0.0, 0.0), scale=1.0):
-    renderer = configured(vtkRenderer(), Background=(0.9, 0.95, 1.0), Background2=(0.2, 0.4, 0.8), GradientBackground=True)
+    renderer = configured(
+        vtkRenderer(), Background=(0.9, 0.95, 1.0), Background2=(0.2, 0.4, 0.8), GradientBackground=True)
     for actor in actors:
         renderer.AddActor(actor)
     light, eye = (tuple(np.array(center) + scale * np.array(place)) for place in ([-3.0, -4.0, 6.0], [0.0, -5.0, 1.2]))
@@ -49,7 +50,7 @@ def renderer_of(*actors, center=(0.0, 0.0, 0.0), scale=1.0):
 
 
 def sphere_on_tiles(material="matte", data=SPLATS, center=(0.0, 0.0, 0.0), scale=1.0):
-    actors = [actor_of(each, kind, Position=center, Scale=scale) for each, kind in ((data, material), (tiles(), "matte"))]
+    actors = [actor_of(*each, Position=center, Scale=scale) for each in ((data, material), (tiles(), "matte"))]
     return renderer_of(*actors, center=center, scale=scale)
 
 
@@ -109,7 +110,7 @@ def is_progressive():
 
 
 def is_drawn_in_windows():
-    """As the picture; what is not traced is hidden by what is, and hides what is behind it."""
+    """Windows show the traced picture. Objects that are not traced hide, and are hidden by, those that are."""
     frame = window_of(sphere_on_tiles())[0].image()
     check(np.abs(frame - traced(sphere_on_tiles())).max() <= ROUNDING, "the window shows the picture")
     for y, is_seen in ((-1.5, True), (1.5, False)):

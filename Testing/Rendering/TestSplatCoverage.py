@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Splats cover what the surface covers: no hole at any distance of the camera; with multisampling outlines as smooth as a
-mesh's, where the mesh's are; nothing within the surface is cut away."""
+"""Splats cover what the surface covers. They have no hole at any distance of the camera. With multisampling their
+outlines are as smooth as a mesh's, and in the same place. Nothing within the surface is cut away."""
 
 import numpy as np
 from scenes import (
@@ -11,7 +11,7 @@ SAMPLES = 8  # as a window has by default; the driver may give fewer
 
 
 def outline(scene, radius):
-    """How far each pixel's middle is from the sphere's outline, in pixels, negative inside."""
+    """The signed distance of each pixel's middle from the sphere's outline, in pixels; negative inside."""
     width, height = scene.window.GetSize()
     apparent = radius / np.sqrt(scene.camera.GetDistance()**2 - radius**2)  # tangent of half the angle it fills
     pixels = apparent / np.tan(np.radians(scene.camera.GetViewAngle() / 2)) * height / 2
@@ -20,8 +20,8 @@ def outline(scene, radius):
 
 
 def a_sphere_has_no_hole():
-    """Of radius 70, with a sample a unit volume: from a twentieth of a pixel inside the outline on, every pixel is the
-    surface's, however far the camera is, and none far outside."""
+    """The sphere has the radius 70, and each unit of volume has one sample. At any distance of the camera, all pixels
+    that are a twentieth of a pixel inside the outline show the surface, and none far outside does."""
     half = 100.0
     splats = isopoints(lambda p: RADIUS - np.linalg.norm(p, axis=1), -half, half, 8_000_000)
     scene = Scene(actor_of(splats, Ambient=0.3), background=(0, 0, 1))
@@ -64,14 +64,14 @@ def outlines_are_those_of_the_mesh():
 
 
 def shrunk(mask, times=3):
-    """Without the pixels at its border."""
+    """A mask without the pixels at its border."""
     for _ in range(times):
         mask = np.logical_and.reduce([np.roll(mask, shift, axis) for axis in (0, 1) for shift in (-1, 0, 1)])
     return mask
 
 
 def nothing_inside_is_cut_away():
-    """Neither of what is curved more than pixels show, nor of flat and sharp shapes, seen from anywhere."""
+    """Strongly curved, flat and sharp shapes have no hole from any direction."""
     x, y = (axis.ravel() for axis in np.meshgrid(*2 * [np.linspace(-1, 1, 60)]))
     radii = np.full(len(x), 0.05)
     for name, data in (

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the splat mapper adds to VTK's: the filter in front of it."""
+"""The splat mapper adds a filter to VTK's mapper: its properties, copies, bounds and updates."""
 
 import numpy as np
 from scatteredisopoints import vtkIsopointSplatMapper
@@ -79,7 +79,7 @@ def shallow_copies():
 
 
 def bounds():
-    """Of the triangles, without what is not finite."""
+    """Bounds are those of the triangles, without values that are not finite."""
     mapper = vtkIsopointSplatMapper()
 
     def expect(expected, what):

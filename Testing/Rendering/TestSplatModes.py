@@ -6,11 +6,9 @@ import sys
 
 import numpy as np
 from scenes import (
-    BOUNDS, Scene, actor_of, check, color_by, configured, differs, halves, isopoints, output_of,
-    positions_of, psnr, sphere_mesh,
-    torus_mesh, torus_splats)
-from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
+    BOUNDS, Scene, actor_of, check, color_by, configured, differs, halves, isopoints, output_of, points_of,
+    positions_of, psnr, sphere_mesh, torus_mesh, torus_splats)
+from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkCommonDataModel import vtkPlane
 from vtkmodules.vtkFiltersSources import vtkCubeSource
 from vtkmodules.vtkRenderingCore import vtkLight
@@ -76,13 +74,11 @@ def composite(scene, actor):
 
 
 def far_from_the_origin(scene, actor):
-    """Floats are 8 apart there, the torus is as large as a third of that."""
+    """Neighboring floats there differ by 8, three times the torus's size."""
     data, offset = input_of(actor), 1e8
-    moved, doubles = data.NewInstance(), vtkPoints()
+    moved = data.NewInstance()
     moved.DeepCopy(data)
-    doubles.SetDataTypeToDouble()
-    doubles.SetData(numpy_to_vtk(positions_of(moved) + offset, deep=True))
-    moved.SetPoints(doubles)
+    moved.SetPoints(points_of(positions_of(moved) + offset))
     configured(actor.GetMapper(), InputDataObject=moved, VBOShiftScaleMethod=1)
     configured(scene.camera, Position=(offset, offset - 3, offset + 3), FocalPoint=(offset, offset, offset))
     scene.renderer.ResetCamera(*(offset + bound for bound in BOUNDS))

@@ -58,7 +58,7 @@ def hidden_points(data):
 
 
 def filled(kind, name, values):
-    """An array that NumPy does not make."""
+    """An array of a kind that NumPy cannot make."""
     result = kind()
     result.SetName(name)
     for value in values:
@@ -73,7 +73,7 @@ def grid_of(data):
 
 
 def splats_of_isopoints():
-    """Close to the torus and its normals, of its area, facing outwards."""
+    """The triangles are close to the torus, have its normals and area, and face outwards."""
     data = torus_splats(100_000)
     triangles, normals, output = triangles_of(data)
     check(np.abs(torus_field(triangles.reshape(-1, 3))).max() < 0.01, "on the torus")
@@ -92,7 +92,7 @@ def splats_of_isopoints():
 
 
 def arrays_are_interpolated():
-    """Between isopoints, as on a mesh: across corners that splats share there is no step."""
+    """Values are interpolated between isopoints as on a mesh. Splats that share a corner have one value there."""
     data = torus_splats(100_000)
     count, x = data.GetNumberOfPoints(), positions_of(data)[:, 0]
     other_layout = vtkSOADataArrayTemplate["float64"]
@@ -214,7 +214,8 @@ def shapes_are_those_of_vertices():
     for name, data in {
             "in another order": with_vertices([[i] for i in order], order),
             "two vertices of a point": with_vertices(2 * alone, np.concatenate([every, np.roll(every, 1)])),
-            "cells of several before": with_vertices([[0, 1], every.tolist(), *alone], np.append([9, 9], every))}.items():
+            "cells of several before": with_vertices(
+                [[0, 1], every.tolist(), *alone], np.append([9, 9], every))}.items():
         for kind in (data, grid_of(data)):
             triangles, _, output = triangles_of(kind)
             check(np.array_equal(triangles, expected), name)
@@ -325,7 +326,7 @@ def progress_and_aborts():
 
 
 def bits_are_copied():
-    """Of arrays whose values share bytes, on several threads."""
+    """Several threads copy arrays whose values share bytes."""
     torus = torus_splats(20_000)
     values = np.arange(torus.GetNumberOfPoints()) ** 2 % 7 % 2
     torus.GetPointData().AddArray(filled(vtkBitArray, "bits", map(int, values)))
@@ -338,7 +339,7 @@ def bits_are_copied():
 
 
 def precision():
-    """Far from the origin, in doubles, corners still meet."""
+    """Far from the origin, coordinates are doubles, and corners still meet."""
     offset = 1e7
     data = isopoints(lambda p: ball_field(p - offset), offset - 1.3, offset + 1.3, 20_000)
     triangles, _, _ = triangles_of(data)

@@ -52,7 +52,7 @@ def pick(scene, field, x, y):
 
 
 def pick_randomly(name, data, field, isopoints, to_global):
-    """100 picks; ids of data are given to to_global(block, id), which numbers the isopoints."""
+    """Picks 100 times. to_global(block, id) is the number of the isopoint with an id in the data."""
     # Points without a radius are hidden by others.
     points = np.where(array(isopoints, "Radius")[:, None] > 1e-6, positions_of(isopoints), np.inf)
     actor = actor_of(data)
@@ -96,7 +96,7 @@ def reversed_vertices(data):
 
 
 def hidden_behind_another_actor(data):
-    """What stands before the splats is picked instead of them, and the other way round."""
+    """A pick finds the front object: another actor before the splats, or splats before it."""
     source = configured(vtkSphereSource(), Center=(0, -1.4, 0.4), Radius=0.1)
     ball = configured(vtkActor(), Mapper=configured(vtkPolyDataMapper(), InputConnection=source.GetOutputPort()))
     torus = actor_of(data)

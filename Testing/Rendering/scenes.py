@@ -1,40 +1,27 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces as splats and as meshes, scenes of them, and pictures, for the tests of rendering."""
+"""What the tests of rendering share: surfaces as splats and as meshes, scenes of them, and pictures."""
 
+import pathlib
 import sys
 
 import numpy as np
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, the factories
 from scatteredisopoints import vtkIsopointRayTracer, vtkIsopointSplatMapper, vtkScatteredIsopointFilter
-from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkMultiBlockDataSet, vtkPolyData
+from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData
 from vtkmodules.vtkFiltersSources import vtkSphereSource
-from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
+from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import (
     vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter)
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "Python"))
+from checking import check, run  # noqa: E402, F401
+from vtk_data import as_array, blocks_of, cloud_of, named, points_of, psnr, read_image  # noqa: E402, F401
+from vtk_data import set_all as configured  # noqa: E402
 
 RING, TUBE = 1.0, 0.4
 BOUNDS = (-1.4, 1.4, -1.4, 1.4, -0.4, 0.4)  # of the torus
 BACKGROUND = (0.2, 0.25, 0.35)
-
-
-def check(condition, message):
-    if not condition:
-        sys.exit("failed: " + message)
-
-
-def run(*tests):
-    for test in tests:
-        print(test.__name__, flush=True)
-        test()
-
-
-def configured(instance, **properties):
-    """Calls the methods Set... of an object; a tuple has several arguments."""
-    for name, value in properties.items():
-        getattr(instance, "Set" + name)(*(value if isinstance(value, tuple) else (value,)))
-    return instance
 
 
 def output_of(source, **properties):
@@ -47,8 +34,7 @@ def sphere_mesh(theta=100, phi=100, **properties):
 
 
 def add_array(data, name, values, cells=False):
-    array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
-    array.SetName(name)
+    array = named(name, values)
     attributes = data.GetCellData() if cells else data.GetPointData()
     attributes.SetNormals(array) if name == "Normals" else attributes.AddArray(array)
 
@@ -67,9 +53,7 @@ def cells_of(rows):
 
 def polydata(points, normals=None, **arrays):
     """Points with one vertex cell each and arrays."""
-    data, vtk_points = vtkPolyData(), vtkPoints()
-    vtk_points.SetData(numpy_to_vtk(np.ascontiguousarray(points, dtype=float), deep=True))
-    data.SetPoints(vtk_points)
+    data = cloud_of(np.asarray(points, dtype=float))
     if normals is not None:
         add_array(data, "Normals", np.asarray(normals, dtype=np.float32))
     for name, values in arrays.items():
@@ -78,15 +62,8 @@ def polydata(points, normals=None, **arrays):
     return data
 
 
-def blocks_of(*blocks):
-    data = vtkMultiBlockDataSet()
-    for i, block in enumerate(blocks):
-        data.SetBlock(i, block)
-    return data
-
-
 def isopoints(field, low, high, count, seed=1, creases=False):
-    """The filter's isopoints where a field is 0, of random samples in a box; on request with fits of creases."""
+    """The isopoints of a field at 0, from random samples in a box. On request the fit follows creases."""
     positions = np.random.default_rng(seed).uniform(low, high, (count, 3))
     samples = polydata(positions, f=field(positions), x=positions[:, 0])
     samples.GetPointData().SetActiveScalars("f")
@@ -141,7 +118,7 @@ def torus_mesh(rows=800, columns=400):
 
 
 def actor_of(data, splats=True, **properties):
-    """properties: of the actor's vtkProperty."""
+    """properties: those of the actor's vtkProperty"""
     mapper = vtkIsopointSplatMapper() if splats else vtkPolyDataMapper()
     actor = configured(vtkActor(), Mapper=configured(mapper, InputDataObject=data, ScalarVisibility=False))
     configured(actor.GetProperty(), **properties)
@@ -194,22 +171,6 @@ def traced(renderer, width, height, **properties):
     tracer = configured(vtkIsopointRayTracer(), **properties)
     check(tracer.RenderToImage(renderer, width, height, image), "there is a picture")
     return as_array(image)
-
-
-def as_array(image):
-    width, height, _ = image.GetDimensions()
-    scalars = vtk_to_numpy(image.GetPointData().GetScalars())
-    return scalars.reshape(height, width, -1)[..., :3].astype(float)
-
-
-def read_image(path):
-    return as_array(output_of(vtkPNGReader(), FileName=path))
-
-
-def psnr(a, b):
-    """Peak signal to noise ratio in decibels."""
-    error = np.mean((a - b) ** 2)
-    return np.inf if error == 0 else 10 * np.log10(255**2 / error)
 
 
 def differs(image, color=BACKGROUND):
