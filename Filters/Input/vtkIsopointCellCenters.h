@@ -20,7 +20,8 @@ vtkSmartPointer<vtkDataSet> vtkMakeDualGrid(vtkDataSet* input);
 
 /// The centers of all cells as defined by vtkCellCenters, NaN for empty cells. Float if the points
 /// of the data set are, otherwise double. O(cells), in parallel.
-/// @throws isopoint::UsageError if there are cells, but no points; std::bad_alloc, isopoint::Aborted
+/// @throws isopoint::UsageError if there are cells, but no points; std::bad_alloc,
+/// isopoint::Aborted
 vtkSmartPointer<vtkPoints> vtkComputeCellCenters(
   const isopoint::Execution& execution, vtkDataSet* input);
 

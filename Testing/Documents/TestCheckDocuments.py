@@ -51,7 +51,7 @@ DEFECTS = (  # the text of a page in docs, the line of the defect, and a word of
     ("| smallestPiece | GapTetrahedra.h | 8 |\n", 1, "backticks"),
     *((f"| {name} | {file} | {value} |\n", 1, f"{name} in {file} is {known}") for name, file, value, known in (
         ("`smallestPiece`", "GapTetrahedra.h", 9, 8), ("`smallestPiece`", "GapTetrahedra.h", "half", 8),
-        ("`coneCosine`", "GapCriterion.h", "1 / 2", "1.0 / 1.7"), ("`leastPivot`", "NormalEquations.h", "1e-9", "1e-7"),
+        ("`coneCosine`", "GapCriterion.h", "1 / 2", "1.0 / 1.7"), ("`minPivot`", "NormalEquations.h", "1e-9", "1e-7"),
         ("`other`", "GapTetrahedra.h", 1, "not in"), ("`smallestPiece`", "Base.h", 1, "not in"))),
     *((f"| property | default |\n|---|---|\n| `{name}` | {value} |\n", 3, f"{name} is {known}")
       for name, value, known in (

@@ -154,7 +154,7 @@ class DataSetsTest(unittest.TestCase):
         blocks = vtkMultiBlockDataSet()
         for i, name in enumerate((None, "second", "third")):
             block = cloud(1000)
-            scalars = numpy_to_vtk(RANDOM.random(1000))
+            scalars = numpy_to_vtk(np.linspace(0.0, 1.0, 1000))
             scalars.SetName(name)
             block.GetPointData().SetScalars(scalars)
             blocks.SetBlock(i, block)
