@@ -97,7 +97,7 @@ public:
     this->value[this->Count] = sampleValue;
     const double squared = dot(offset, offset);
     this->squaredDistance[this->Count] = squared;
-    this->DistanceSums[this->Count % laneCount] += std::sqrt(squared);
+    this->DistanceSums[static_cast<Eigen::Index>(this->Count % laneCount)] += std::sqrt(squared);
     ++this->Count;
   }
 

@@ -63,11 +63,7 @@ ErrorEstimate estimateError(const NormalEquations<Degree>& equations, const Poly
       sumOfSquares(Numbers(weight * effectOn([&](std::size_t j) { return units[j][i]; })));
   }
   // If the other samples determine less, a residual is only rounding.
-  bool isDetermined = true;
-  for (std::size_t i = 0; i < nearest; ++i)
-  {
-    isDetermined = isDetermined && rest[i] > minPivot;
-  }
+  const bool isDetermined = (rest > minPivot).all();
   const double meanSquare = isDetermined ? sumOfSquares(residual) / sumOfSquares(weight)
                                          : std::numeric_limits<double>::quiet_NaN();
   // std::max() keeps NaN as its first argument.

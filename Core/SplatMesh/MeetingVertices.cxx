@@ -119,9 +119,8 @@ std::vector<Entry> verticesByCell(
         {
           const std::uint64_t isFiner = grid == own ? 0 : 1;
           forCells(vertices[i], *grid,
-            [&](const Cell& cell) {
-              found.push_back({ hashOfCell(*grid, cell) << 1 | isFiner, i });
-            });
+            [&](const Cell& cell)
+            { found.emplace_back(hashOfCell(*grid, cell) << 1 | isFiner, i); });
         }
       }
     });

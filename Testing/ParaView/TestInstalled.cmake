@@ -9,7 +9,7 @@ endfunction ()
 file(REMOVE_RECURSE "${PREFIX}")
 run("${CMAKE_COMMAND}" --install "${BUILD_DIR}" --prefix "${PREFIX}")
 run("${CMAKE_COMMAND}" -E env "PYTHONPATH=${PREFIX}/${PYTHON_DIR}"
-  "${PYTHON}" "${SOURCE_DIR}/Testing/Python/TestFilter.py")
+  "${PYTHON}" "${SOURCE_DIR}/Testing/Python/TestContour.py")
 file(REMOVE_RECURSE "${PREFIX}-consumer")
 run("${CMAKE_CTEST_COMMAND}" --build-and-test "${SOURCE_DIR}/Testing/Consumer" "${PREFIX}-consumer"
   --build-generator "${GENERATOR}" --build-options "-DCMAKE_PREFIX_PATH=${PREFIX}"
