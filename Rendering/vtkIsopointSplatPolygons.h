@@ -64,9 +64,9 @@ public:
 
   ///@{
   /**
-   * The radius of all splats if there is no array of radii, in units of the coordinates. 0: twice
-   * the diagonal of the bounding box, divided by the square root of the number of points, which
-   * suits points spread over a surface of the diagonal's square. Range: 0 or more. Default: 0.
+   * The radius of all splats if there is no array of radii, in units of the coordinates. 0: 2 d /
+   * sqrt(n) for n points whose bounding box has the diagonal d, which suits points spread over a
+   * surface with an area of about d^2. Range: 0 or more. Default: 0.
    */
   vtkSetClampMacro(Radius, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Radius, double);

@@ -33,9 +33,9 @@ public:
     this->Neighbors.push_back({ offset, lengthOf(offset), this->Neighbors.size() });
   }
 
-  /// The distance within which two fifths of the sample and its neighbors are; or, if well less,
-  /// that at which the neighbors span space. The farthest may be across a void; the nearest may all
-  /// be on a line or in a slice with the sample. O(n log n)
+  /// The smaller of two distances: the one within which about two fifths of the sample and its
+  /// neighbors lie, and 1.2 times the one at which the neighbors span space. The farthest may be
+  /// across a void; the nearest may all be on a line or in a slice with the sample. O(n log n)
   double spacing()
   {
     std::sort(this->Neighbors.begin(), this->Neighbors.end(),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Otherwise, assignments are not inlined in large functions.
+// Makes compilers inline Eigen's assignments in large functions, too.
 #if defined(__GNUC__) && !defined(EIGEN_STRONG_INLINE)
 #define EIGEN_STRONG_INLINE __attribute__((always_inline)) inline
 #endif

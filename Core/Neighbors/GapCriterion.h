@@ -14,9 +14,10 @@ namespace isopoint
 {
 
 /// Rejects edges across gaps in the cloud. The spacing behind the end x of an edge {x, y} is the
-/// distance from x to the 2nd nearest sample position within 54.7356 degrees of the direction from
-/// y to x (cosine 1 / sqrt 3), infinite if there are fewer. An end is dense if the edge is longer
-/// than `factor` times the spacing behind it. An edge is rejected if both ends are dense.
+/// distance from x to the `count`-th nearest sample position in the cone around the direction from
+/// y to x (with a half angle of 54.7356 degrees by default), infinite if there are fewer. An end is
+/// dense if the edge is longer than `factor` times the spacing behind it. An edge is rejected if
+/// both ends are dense.
 /// - All samples count, neighbors of x or not: cells at the border of a void stretch across it and
 ///   need not touch the cells of the samples nearest to x.
 /// - Only samples behind x count: on lines and in slices, samples are much closer to each other

@@ -82,7 +82,8 @@ public:
 
   std::vector<std::size_t> numbers() const { return {}; }
 
-  /// This rank's isopoints and the first three rings; only two rings if there are three.
+  /// Whether each isopoint of surface() is this rank's own or in the inner rings: the first three,
+  /// or the first two if gather() fetched only three.
   const std::vector<bool>* inner() const { return &this->IsInner; }
 
   std::vector<std::size_t> owned() const { return markedOf(this->IsOwned); }
@@ -375,7 +376,7 @@ private:
   std::unordered_set<std::size_t> Requested;       // leaves
   std::vector<std::vector<SentIsopoint>> Received; // from each rank, in order of arrival
   std::vector<std::vector<std::size_t>> Given;     // to each rank, in order of sending
-  std::vector<IsopointEdge> Surrounded; // received with the first three rings, or two of three
+  std::vector<IsopointEdge> Surrounded;            // received with the inner rings
   Isosurface All;
   std::vector<std::size_t> OwnIndices; // of this rank's isopoints among all
   std::vector<std::size_t> OwnInTreeOrder;

@@ -65,8 +65,8 @@ private:
              dot(this->Normals[point], this->Normals[other]) > minCosine);
   }
 
-  /// A random order of close points, so that chains of them are decided in few rounds. It depends
-  /// neither on the order of the samples nor on scaling by a power of two.
+  /// A pseudorandom order of close points, so that chains of them are decided in few rounds. It
+  /// depends neither on the order of the samples nor on scaling by a power of two.
   std::tuple<std::uint64_t, Vector, Vector, std::size_t> keyOf(std::size_t point) const
   {
     const Vector& position = this->Points.positions[point];

@@ -395,7 +395,7 @@ private:
     return all;
   }
 
-  /// Inserts samples whose value is on the other side of the isovalue than the band indicates.
+  /// Inserts samples whose values are not on the side of the isovalue that the band indicates.
   /// @returns whether there were any
   bool checkSides()
   {

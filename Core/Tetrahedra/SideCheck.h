@@ -15,9 +15,9 @@
 namespace isopoint
 {
 
-/// Finds samples whose value is on the other side of the isovalue than the band's surface indicates
-/// at their position, after all crossing cells are certified. They show pieces of the surface where
-/// the band has no samples.
+/// Once all crossing cells are certified, finds samples whose values are not on the side of the
+/// isovalue that the band's surface indicates at their positions. They show pieces of the surface
+/// where the band has no samples.
 /// Tree regions that no sphere of a crossing tetrahedron reached do not meet the surface: one
 /// sample represents all in them. In a process group, each rank checks its own samples.
 template <class TSample>

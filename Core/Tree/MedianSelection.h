@@ -12,7 +12,8 @@
 namespace isopoint
 {
 
-/// The coordinates of rank count / 2 - 1 and count / 2 in a node, on one axis.
+/// The coordinates on both sides of a cut through sorted coordinates. At the median of a node,
+/// their ranks are count / 2 - 1 and count / 2.
 template <class TCoordinate>
 struct MiddleCoordinates
 {
@@ -146,7 +147,7 @@ private:
 /// The coordinates of rank - 1 and rank, 0 < rank < count. O(count). Pivots are interpolated
 /// between the nearest known coordinates: a uniform distribution takes three or four passes. If
 /// this converges slowly, every other pivot is one of the coordinates in between.
-/// @param coordinates the first `count` are finite and are reordered; the others are overwritten
+/// @param coordinates the first `count` are finite, and may be reordered; others may be overwritten
 template <class TCoordinate>
 MiddleCoordinates<TCoordinate> selectMiddle(
   std::vector<TCoordinate>& coordinates, std::size_t count, std::size_t rank)

@@ -39,7 +39,7 @@ public:
     FacetMesh mesh(this->Whole.surface.positions, this->Whole.isInner, std::move(facets));
     for (std::size_t vertex = 0; vertex < this->Whole.isInner.size(); ++vertex)
     {
-      this->lookAfter(vertex);
+      this->throwIfAbortedAt(vertex);
       if (this->Whole.isInner[vertex] && this->isLost(vertex, mesh.neighborsOf(vertex)))
       {
         this->mergeWithNearest(mesh, vertex);
@@ -48,7 +48,7 @@ public:
     this->Pieces.resize(this->Whole.isInner.size());
     for (std::size_t vertex = 0; vertex < this->Whole.isInner.size(); ++vertex)
     {
-      this->lookAfter(vertex);
+      this->throwIfAbortedAt(vertex);
       this->Pieces[vertex] = this->Whole.isInner[vertex] ? this->pieceOf(mesh, vertex) : vertex;
     }
     return mesh.facets();
@@ -69,9 +69,10 @@ public:
       }
     }
     keepUnique(edges);
-    for (const auto& [a, b] : edges)
+    for (std::size_t i = 0; i < edges.size(); ++i)
     {
-      this->lookAfter(a);
+      this->throwIfAbortedAt(i);
+      const auto& [a, b] = edges[i];
       if (const std::optional<Vector> place = this->placeOnCrease(a, b))
       {
         this->OnCreases[{ a, b }] = this->Whole.addVertex(a, *place, { a, b });
@@ -183,8 +184,8 @@ private:
              : std::nullopt;
   }
 
-  /// Checks now and then for an abort.
-  void lookAfter(std::size_t count) const
+  /// Checks for an abort at each 1024th number.
+  void throwIfAbortedAt(std::size_t count) const
   {
     constexpr std::size_t batch = 1024;
     if (count % batch == 0)

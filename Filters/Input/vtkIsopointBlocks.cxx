@@ -66,7 +66,7 @@ vtkIdType elementCount(vtkDataObject* leaf)
   return trees ? trees->GetNumberOfLeaves() : 0;
 }
 
-/// The begin of an error message.
+/// The beginning of an error message.
 std::string describe(vtkAbstractArray* array)
 {
   return std::string("The array \"") + (array->GetName() ? array->GetName() : "") + "\" ";
