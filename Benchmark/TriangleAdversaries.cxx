@@ -34,7 +34,7 @@ constexpr const char* usage =
   "Finds the crossing tetrahedra of clouds that are hard on the search for them, and prints a Markdown\n"
   "table of the times, as shares of that of CGAL's tetrahedralization of all samples and one pass over\n"
   "its cells. Exits with 1 if any share is above 1.5.\n"
-  "  SAMPLES       of most clouds (default: 200000); of those on curves, on which CGAL takes long, a\n"
+  "  SAMPLES       of most clouds (default: 200000); for clouds on curves, where CGAL is slow, a\n"
   "                tenth or less\n"
   "  THREADS       on one thread (the default) times are processor seconds, else elapsed seconds\n"
   "  CGAL_THREADS  of CGAL (default: 1)\n"

@@ -30,8 +30,8 @@ struct SampleCloud
   SampleTree<TSample> tree;
   NeighborhoodCache<typename TSample::Id> neighborhoods;
   std::vector<std::uint64_t> begins; // see SharedTree; only on ranks
-  std::unique_ptr<KeptTetrahedra> keptTetrahedra =
-    nullptr; // of the last triangles, if worth the memory
+  /// Of the last triangles, if worth the memory.
+  std::unique_ptr<KeptTetrahedra> keptTetrahedra = nullptr;
 };
 
 /// IsosurfaceExtractor::extract() for one layout, each of which is compiled in its own file.

@@ -14,6 +14,14 @@
 namespace isopoint
 {
 
+/// The bits of a number.
+inline std::uint64_t bitsOf(double number)
+{
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &number, sizeof(bits));
+  return bits;
+}
+
 /// A permutation of 64 bits in which every bit depends on all others (finalizer of SplitMix64).
 inline std::uint64_t mixBits(std::uint64_t number)
 {
@@ -41,10 +49,7 @@ inline std::uint64_t hashOfCell(int grid, const std::array<double, 3>& place)
   auto hash = static_cast<std::uint64_t>(grid);
   for (const double coordinate : place)
   {
-    const double number = coordinate + 0.0; // -0 becomes 0
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &number, sizeof(bits));
-    hash = extendedHash(hash, bits);
+    hash = extendedHash(hash, bitsOf(coordinate + 0.0)); // -0 becomes 0
   }
   return hash;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Core/Base/Execution.h"
+#include "Core/Base/Hash.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -61,9 +62,7 @@ public:
 inline std::uint64_t orderedKey(double number)
 {
   constexpr std::uint64_t sign = std::uint64_t{ 1 } << 63;
-  const double normalized = number == 0.0 ? 0.0 : number;
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, &normalized, sizeof(bits));
+  const std::uint64_t bits = bitsOf(number == 0.0 ? 0.0 : number);
   return (bits & sign) != 0 ? ~bits : bits | sign;
 }
 

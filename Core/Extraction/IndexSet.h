@@ -8,7 +8,7 @@
 namespace isopoint
 {
 
-/// A set of node indices that is cleared often. Memory is kept. For one thread.
+/// A set of indices that is cleared often. Memory is kept. For one thread.
 template <class TId>
 class IndexSet
 {

@@ -15,7 +15,7 @@ namespace isopoint
 {
 
 /// Gathers the samples around edges, one edge at a time: those of the cells that touch either end.
-/// widen() adds the neighbors of those across the isovalue. Memory is kept. For one thread.
+/// widen() adds the neighbors of these cells across the isovalue. Memory is kept. For one thread.
 template <class TSample>
 class SampleGatherer
 {

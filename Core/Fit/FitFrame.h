@@ -22,9 +22,9 @@ public:
   /// Moves to an edge; there are no samples yet.
   void enter(const FitEdge& edge, double isovalue);
 
-  /// Adds samples. The nearest come first while there are fewer than FrameSamples::nearest. If
-  /// there would be more than FrameSamples::most, only the nearest of these are added. O(last -
-  /// first)
+  /// Adds samples, O(1) each. The nearest come first while there are fewer than
+  /// FrameSamples::nearest. If there would be more than FrameSamples::most, only the nearest of
+  /// these are added.
   void add(const FitSample* first, const FitSample* last);
 
   const FrameSamples& samples() const { return this->Samples; }

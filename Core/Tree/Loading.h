@@ -162,10 +162,7 @@ std::uint64_t hashOfItem(std::uint64_t id, const TCoordinate* position)
   std::uint64_t hash = id;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const auto coordinate = static_cast<double>(position[axis]);
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &coordinate, sizeof(bits));
-    hash = extendedHash(hash, bits);
+    hash = extendedHash(hash, bitsOf(static_cast<double>(position[axis])));
   }
   return hash;
 }

@@ -78,7 +78,8 @@ struct Node
   std::size_t upperNode() const { return this->lowerNode() + 1; }
   std::size_t count() const { return static_cast<std::size_t>(this->end - this->begin); }
 
-  /// The end of the samples that stand for all: of those at one position, the first one suffices.
+  /// The end of the samples to look at for positions. Of a leaf, whose samples share one position,
+  /// the first sample suffices.
   std::size_t positionsEnd() const { return this->isLeaf ? this->begin + Id{ 1 } : this->end; }
 };
 

@@ -29,7 +29,7 @@ class DataSamples:
     positions: Any
     values: np.ndarray
     excluded: Optional[np.ndarray]  # bool; None without ghosts
-    arrays: Optional[dict[str, Any]]  # None: those that the caller gives for each isosurface
+    arrays: Optional[dict[str, Any]]  # None: the caller passes arrays for each isosurface
     maker: PolyDataMaker
     without_array: int = 0  # points or cells of blocks without the array
 

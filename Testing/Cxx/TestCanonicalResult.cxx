@@ -30,7 +30,7 @@ std::size_t compare(const clouds::Cloud& cloud, const std::vector<double>& isova
   return count;
 }
 
-/// The sum of the sizes of neighborhoods, of those of more than `least` cells.
+/// The total size of the neighborhoods with more than `least` cells.
 std::size_t sumOfNeighborhoods(const clouds::Cloud& cloud, std::size_t least)
 {
   std::size_t sum = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Hard clouds, and numbers at the limits of their types, infinite or NaN: the filter yields what is
-// defined.
+// Hard clouds, and numbers at the limits of their types, infinite or NaN: results follow the
+// definition.
 #include "FilterTesting.h"
 
 #include "vtkLongLongArray.h"

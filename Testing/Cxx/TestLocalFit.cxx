@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fits to the samples around an edge: fields whose surfaces are known, units, and what is not
-// fitted. TestFitDefinition compares fits with the rule.
+// Fits to the samples around an edge, for fields with known surfaces, in any units, and where no
+// fit is possible. TestFitDefinition compares fits with the rule.
 #include "FitTesting.h"
 
 #include "Core/Fit/FitFrame.h"

@@ -33,7 +33,7 @@ Contents expectedOf(const std::vector<clouds::Cloud>& pieces, const Request& req
 /// What ends the work: an allocation on the first rank that fails, or an abort on the second one.
 struct Fault
 {
-  long allocation = 0; // from 1, of those of at least some bytes
+  long allocation = 0; // that fails: its number, from 1, among allocations of at least `bytes`
   std::size_t bytes = failingallocator::largeSize;
   int abort = -1; // how many questions for it are answered with no
 };
