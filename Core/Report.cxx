@@ -95,6 +95,28 @@ Message describeIsovaluesOutside(const Report& report, const std::vector<double>
       ", up to " + textOf(report.greatest, digits) + "." };
 }
 
+/// Why an isovalue in the range has no surface, and the remedy.
+std::string reasonOfEmptyIsovalue(const Report& report, OptionNaming naming)
+{
+  constexpr std::uint64_t fewest = 4; // of a tetrahedron
+  const std::uint64_t used = report.samples - report.skippedCount();
+  if (used < fewest)
+  {
+    return "there are only " + std::to_string(used) + " samples. Add samples around the surface.";
+  }
+  if (report.droppedInGaps > 0)
+  {
+    return "all of it is in gaps between samples. Turn " + naming(option::dropGaps.name) + " off.";
+  }
+  if (report.contoursBlocks)
+  {
+    return "no block has a surface of its own. Turn " + naming("ContourBlocks") + " off.";
+  }
+  return report.areTriangles
+           ? "the samples are in one plane. Apply Delaunay 2D and Contour instead."
+           : "samples at one position count with the mean of their values.";
+}
+
 /// For isovalues in the range.
 Message describeEmptyIsovalues(
   const Report& report, const std::vector<double>& empty, OptionNaming naming)
@@ -104,22 +126,8 @@ Message describeEmptyIsovalues(
     return {};
   }
   const std::string isovalues = join(empty, digitsFor(report, empty));
-  const std::string dropGaps = naming(option::dropGaps.name);
-  std::string reason = "all of it is in gaps between samples. Turn " + dropGaps + " off.";
-  if (report.areTriangles)
-  {
-    reason = report.dropsGaps
-               ? "all of it is in gaps, or the samples are in one plane. Turn " + dropGaps +
-                   " off; for samples in a plane apply Delaunay 2D and Contour instead."
-               : "the samples are in one plane. Apply Delaunay 2D and Contour instead.";
-  }
-  else if (!report.dropsGaps)
-  {
-    reason = report.contoursBlocks ? "no block has samples on both sides. Turn ContourBlocks off."
-                                   : "samples at one position count with the mean of their values.";
-  }
   return { "isovalues without points in " + report.array + ": " + isovalues,
-    "No isosurface at " + isovalues + ": " + reason };
+    "No isosurface at " + isovalues + ": " + reasonOfEmptyIsovalue(report, naming) };
 }
 
 std::vector<Message> describeIsovalues(const Report& report, OptionNaming naming)
@@ -240,7 +248,6 @@ Report::Report(const Options& options, const std::vector<double>& sortedIsovalue
   : isovalues(sortedIsovalues)
   , points(sortedIsovalues.size(), 0)
   , areTriangles(options.triangles)
-  , dropsGaps(options.dropGaps)
   , areProjected(options.projection != 0)
 {
 }

@@ -44,7 +44,6 @@ struct Report
   std::vector<double> isovalues;              // ascending
   std::vector<std::uint64_t> points;          // by isovalue
   bool areTriangles = false;                  // whether points are connected
-  bool dropsGaps = false;                     // whether parts in gaps are dropped
   bool areProjected = false;                  // whether fits were to move points
   bool contoursBlocks = false;                // whether each block is its own cloud
   std::uint64_t unprojectedPoints = 0;        // not moved by a fit

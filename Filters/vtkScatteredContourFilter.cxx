@@ -49,6 +49,7 @@ vtkIsopointSwitchMacro(vtkScatteredContourFilter, ComputeScalars);
 vtkIsopointSwitchMacro(vtkScatteredContourFilter, ContourBlocks);
 vtkIsopointSwitchMacro(vtkScatteredContourFilter, KeepTree);
 vtkIsopointSwitchMacro(vtkScatteredContourFilter, UseAllCores);
+vtkIsopointSwitchMacro(vtkScatteredContourFilter, UsePanelNames);
 
 void vtkScatteredContourFilter::SetController(vtkMultiProcessController* controller)
 {
@@ -193,6 +194,7 @@ void vtkScatteredContourFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ContourBlocks: " << onOrOff(this->Options->ContourBlocks);
   os << indent << "KeepTree: " << onOrOff(this->Options->KeepTree);
   os << indent << "UseAllCores: " << onOrOff(this->Options->UseAllCores);
+  os << indent << "UsePanelNames: " << onOrOff(this->Options->UsePanelNames);
   os << indent << "NumberOfSamples: " << this->GetNumberOfSamples() << "\n";
   os << indent << "NumberOfSkippedSamples: " << this->GetNumberOfSkippedSamples() << "\n";
   os << indent << "NumberOfExtractedPoints: " << this->GetNumberOfExtractedPoints() << "\n";

@@ -262,6 +262,16 @@ public:
   vtkBooleanMacro(UseAllCores, vtkTypeBool);
   ///@}
 
+  ///@{
+  /**
+   * Whether messages name properties as ParaView's panel does, "Drop Gaps", rather than as methods,
+   * "DropGaps". Default: off; in ParaView on.
+   */
+  virtual void SetUsePanelNames(vtkTypeBool use);
+  virtual vtkTypeBool GetUsePanelNames();
+  vtkBooleanMacro(UsePanelNames, vtkTypeBool);
+  ///@}
+
   /**
    * The number of input points (or cells, or leaves) of the last update, including skipped ones.
    */

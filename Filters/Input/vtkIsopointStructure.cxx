@@ -166,8 +166,8 @@ void vtkIsopointStructure::Merge(const vtkIsopointStructure& other, const std::s
     throw isopoint::UsageError(
       "The inputs of the ranks have different blocks" +
       (place.empty() ? std::string() : " at " + place) +
-      ". Give all ranks the same tree of blocks, null where a rank has no data, or switch"
-      " ContourBlocks off.");
+      ". Give all ranks the same tree of blocks, null where a rank has no data, or contour"
+      " all blocks as one cloud.");
   }
   this->Type = other.Type;
   for (std::size_t i = 0; i < other.Children.size(); ++i)

@@ -18,6 +18,7 @@ struct vtkIsopointOptions
   bool ContourBlocks = false;
   bool KeepTree = true;
   bool UseAllCores = true;
+  bool UsePanelNames = false;
 };
 
 /// Sets an option to a value, clamped to its range.

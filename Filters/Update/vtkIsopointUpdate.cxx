@@ -34,6 +34,7 @@
 #include <exception>
 #include <new>
 #include <numeric>
+#include <string>
 #include <utility>
 
 vtkIsopointUpdate::vtkIsopointUpdate(vtkAlgorithm* filter)
@@ -330,6 +331,23 @@ unsigned long vtkIsopointUpdate::ReportFailure(isopoint::Failure& failure)
   return code;
 }
 
+namespace
+{
+
+/// A name as in ParaView's panel: DropGaps is "Drop Gaps" there.
+std::string panelNameOf(const char* name)
+{
+  std::string words;
+  for (const char* letter = name; *letter != '\0'; ++letter)
+  {
+    const bool startsWord = *letter >= 'A' && *letter <= 'Z' && !words.empty();
+    words += startsWord ? std::string{ ' ', *letter } : std::string(1, *letter);
+  }
+  return words;
+}
+
+} // namespace
+
 void vtkIsopointUpdate::ReportMessages()
 try
 {
@@ -343,7 +361,9 @@ try
     this->ReportedOf == producer ? this->Reported : std::set<std::string>();
   this->ReportedOf = producer;
   this->Reported.clear();
-  for (isopoint::Message& message : isopoint::describeReport(this->Report))
+  const isopoint::OptionNaming naming =
+    this->Options.UsePanelNames ? &panelNameOf : &isopoint::sameName;
+  for (isopoint::Message& message : isopoint::describeReport(this->Report, naming))
   {
     this->Reported.insert(message.cause);
     if (before.count(message.cause) > 0)

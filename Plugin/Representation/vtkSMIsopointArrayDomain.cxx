@@ -20,9 +20,9 @@ vtkStandardNewMacro(vtkSMIsopointArrayDomain);
 namespace
 {
 
-/// Whether an array numbers points or cells. Readers of finite elements mark such arrays as id
-/// attributes, but composites may lose the mark.
-bool isIds(vtkPVDataInformation* data, const std::string& name, int association)
+/// Whether an array has an id attribute, or a name that readers of finite elements give to ids.
+/// Composites may lose the attribute.
+bool isMarkedAsIds(vtkPVDataInformation* data, const std::string& name, int association)
 {
   static const std::set<std::string> names{ "vtkOriginalPointIds", "vtkOriginalCellIds",
     "GlobalNodeId", "GlobalElementId", "GlobalPointIds", "GlobalCellIds", "PedigreeNodeId",
@@ -39,17 +39,24 @@ bool isIds(vtkPVDataInformation* data, const std::string& name, int association)
          isAttribute(vtkDataSetAttributes::PEDIGREEIDS);
 }
 
+/// Whether the values of an array can be a numbering of its elements, from 0 or 1.
+bool canBeNumbers(vtkPVArrayInformation* array, const double range[2])
+{
+  const auto count = static_cast<double>(array->GetNumberOfTuples());
+  return (range[0] == 0.0 || range[0] == 1.0) && range[1] - range[0] == count - 1.0;
+}
+
 /// Whether an array is worth contouring.
 bool isField(vtkPVDataInformation* data, const char* name, int association)
 {
   vtkPVArrayInformation* const array = data->GetArrayInformation(name, association);
-  if (!array || isIds(data, name, association))
+  if (!array || isMarkedAsIds(data, name, association))
   {
     return false;
   }
   double range[2];
   array->GetComponentFiniteRange(0, range);
-  return range[0] < range[1];
+  return range[0] < range[1] && !canBeNumbers(array, range);
 }
 
 } // namespace

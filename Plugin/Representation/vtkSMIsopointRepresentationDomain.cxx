@@ -12,6 +12,7 @@
 #include "vtkSMStringVectorProperty.h"
 
 #include <algorithm>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,22 @@ bool hasPointArray(vtkPVDataInformation* data, const char* name, int components)
 bool hasSplats(vtkPVDataInformation* data)
 {
   return data && hasPointArray(data, "Normals", 3) && hasPointArray(data, "Radius", 1);
+}
+
+/// ParaView lists no arrays of empty data.
+bool isEmpty(vtkPVDataInformation* data)
+{
+  return !data || data->GetNumberOfPoints() == 0;
+}
+
+/// Whether a source makes splats as soon as it makes points.
+bool makesSplats(vtkSMProxy* source)
+{
+  const auto isOn = [source](const char* name)
+  { return vtkSMPropertyHelper(source, name).GetAsInt() != 0; };
+  return source && source->GetXMLName() &&
+         std::strcmp(source->GetXMLName(), "ScatteredIsopoints") == 0 && isOn("ComputeNormals") &&
+         isOn("ComputeSplats");
 }
 
 const char* const splats = "Isopoint Splats";
@@ -71,17 +88,36 @@ void vtkSMIsopointRepresentationDomain::OfferSplats()
   }
   std::vector<std::string> types = this->Types->GetElements();
   types.erase(std::remove(types.begin(), types.end(), splats), types.end());
-  if (hasSplats(this->GetInputDataInformation("Input")))
+  this->NoticeSplats();
+  if (this->HasSplats)
   {
     types.insert(std::lower_bound(types.begin(), types.end(), splats), splats);
   }
   this->Types->SetElements(types);
 }
 
+void vtkSMIsopointRepresentationDomain::NoticeSplats()
+{
+  vtkSMProperty* const inputs = this->GetRequiredProperty("Input");
+  vtkSMProxy* const source = inputs ? vtkSMPropertyHelper(inputs).GetAsProxy() : nullptr;
+  vtkPVDataInformation* const data = this->GetInputDataInformation("Input");
+  if (!isEmpty(data))
+  {
+    this->HasSplats = hasSplats(data);
+  }
+  else if (source != this->Source)
+  {
+    this->HasSplats = makesSplats(source);
+  }
+  this->Source = source;
+}
+
 int vtkSMIsopointRepresentationDomain::SetDefaultValues(
   vtkSMProperty* property, bool usesUncheckedValues)
 {
-  if (!AreIsopoints(this->GetInputDataInformation("Input")))
+  vtkPVDataInformation* const data = this->GetInputDataInformation("Input");
+  this->NoticeSplats();
+  if (!AreIsopoints(data) && !(isEmpty(data) && this->HasSplats))
   {
     return 0;
   }

@@ -5,7 +5,8 @@
  *
  * A domain for a property of the representation's proxy; it sets the property "Representation" of
  * the proxy around it. For data without splats, it keeps the default and removes the type from the
- * list "RepresentationTypesInfo".
+ * list "RepresentationTypesInfo". Empty data have splats if the input had splats before, or if it is
+ * the filter that makes them.
  *
  * The required property "Input" provides the data.
  */
@@ -17,6 +18,7 @@
 #include "vtkWeakPointer.h"
 
 class vtkPVDataInformation;
+class vtkSMProxy;
 class vtkSMStringVectorProperty;
 
 class VTKSCATTEREDISOPOINTREPRESENTATIONS_EXPORT vtkSMIsopointRepresentationDomain
@@ -49,7 +51,12 @@ protected:
 private:
   void OfferSplats();
 
+  /// Finds out whether the input has splats.
+  void NoticeSplats();
+
   vtkWeakPointer<vtkSMStringVectorProperty> Types; // offered types, in the order of their names
+  vtkWeakPointer<vtkSMProxy> Source;              // the input
+  bool HasSplats = false;                         // whether it has splats, as far as known
 
   vtkSMIsopointRepresentationDomain(const vtkSMIsopointRepresentationDomain&) = delete;
   void operator=(const vtkSMIsopointRepresentationDomain&) = delete;

@@ -48,7 +48,7 @@ pqIsopointCounts::pqIsopointCounts(vtkSMProxy* proxy, vtkSMPropertyGroup* group,
     auto* const value = new QLabel(this);
     value->setObjectName(proxy->GetPropertyName(part));
     value->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    auto* const label = new QLabel(QString(part->GetXMLLabel()).remove("Number Of "), this);
+    auto* const label = new QLabel(QString::fromStdString(function), this);
     for (QLabel* const each : { label, value })
     {
       each->setToolTip(QString(part->GetDocumentation()->GetDescription()).simplified());

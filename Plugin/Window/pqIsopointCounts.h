@@ -10,8 +10,8 @@ class QLabel;
 class vtkSMProperty;
 class vtkSMPropertyGroup;
 
-/// Counts of the last update as text, "27 of 12717"; empty before the first update. The property
-/// with the function "name of" is the total for the property with the function "name".
+/// Counts of the last update as text, "27 of 12717"; empty before the first update. The function of
+/// a property is its label, and the property with the function "label of" is its total.
 class pqIsopointCounts : public pqPropertyWidget
 {
   Q_OBJECT

@@ -3,6 +3,7 @@
 
 #include "pqApplicationCore.h"
 #include "pqDataRepresentation.h"
+#include "pqIsopointWindow.h"
 #include "pqOutputPort.h"
 #include "pqPipelineFilter.h"
 #include "pqProxy.h"
@@ -45,8 +46,13 @@ bool isOpaqueSplats(pqDataRepresentation* representation)
 
 void pqIsopointFilters::startup()
 {
-  pqServerManagerModel* const model = pqApplicationCore::instance()->getServerManagerModel();
   this->Following = std::make_unique<QObject>();
+  pqCallWithWindow(this->Following.get(), [this]() { this->followPipeline(); });
+}
+
+void pqIsopointFilters::followPipeline()
+{
+  pqServerManagerModel* const model = pqApplicationCore::instance()->getServerManagerModel();
   QObject::connect(model, &pqServerManagerModel::modifiedStateChanged, this->Following.get(),
     [this](pqServerManagerModelItem* item) { this->follow(item); });
   QObject::connect(model, &pqServerManagerModel::preItemRemoved, this->Following.get(),

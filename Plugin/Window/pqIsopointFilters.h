@@ -19,6 +19,9 @@ public:
   void shutdown();
 
 private:
+  /// Follows all pipeline items from now on.
+  void followPipeline();
+
   /// Follows the states of pipeline items: a filter is new until it is first applied.
   void follow(pqServerManagerModelItem* item);
 

@@ -6,6 +6,7 @@
 #include "pqCoreUtilities.h"
 #include "pqFileDialog.h"
 #include "pqIsopointLabels.h"
+#include "pqIsopointWindow.h"
 #include "pqProgressManager.h"
 #include "pqProxyWidgetDialog.h"
 #include "pqRenderView.h"
@@ -112,12 +113,14 @@ pqIsopointRayTracing::~pqIsopointRayTracing() = default;
 void pqIsopointRayTracing::startup()
 {
   vtkIsopointRayTracingExporter::SetMonitor([this](double share) { return this->show(share); });
-  this->addMenuEntry();
+  this->Waiting = std::make_unique<QObject>();
+  pqCallWithWindow(this->Waiting.get(), [this]() { this->addMenuEntry(); });
 }
 
 void pqIsopointRayTracing::shutdown()
 {
   vtkIsopointRayTracingExporter::SetMonitor(nullptr);
+  this->Waiting.reset();
   delete this->Entry;
 }
 

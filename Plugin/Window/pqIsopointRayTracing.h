@@ -28,6 +28,7 @@ private:
   /// Shows the share of an export that is done. @returns whether to continue
   bool show(double share);
 
+  std::unique_ptr<QObject> Waiting;        // for the window
   QPointer<QObject> Entry;                 // in the menu
   std::unique_ptr<QProgressDialog> Dialog; // during an export
   QProgressBar* Bar = nullptr;             // of the dialog

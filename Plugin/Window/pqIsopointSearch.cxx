@@ -2,19 +2,19 @@
 #include "pqIsopointSearch.h"
 
 #include "pqCoreUtilities.h"
+#include "pqIsopointWindow.h"
 #include "pqPVApplicationCore.h"
 
 #include <QAction>
 #include <QList>
 #include <QObject>
 
+#include <utility>
+
 void pqIsopointSearch::startup()
 {
   this->Entries = std::make_unique<QWidget>();
-  pqPVApplicationCore* const core = pqPVApplicationCore::instance();
-  core->registerForQuicklaunch(this->Entries.get());
-  QObject::connect(core, &pqPVApplicationCore::aboutToShowQuickLaunch, this->Entries.get(),
-    [this]() { this->updateEntries(); });
+  pqCallWithWindow(this->Entries.get(), [this]() { this->registerEntries(); });
 }
 
 void pqIsopointSearch::shutdown()
@@ -22,17 +22,28 @@ void pqIsopointSearch::shutdown()
   this->Entries.reset();
 }
 
+void pqIsopointSearch::registerEntries()
+{
+  pqPVApplicationCore* const core = pqPVApplicationCore::instance();
+  core->registerForQuicklaunch(this->Entries.get());
+  QObject::connect(core, &pqPVApplicationCore::aboutToShowQuickLaunch, this->Entries.get(),
+    [this]() { this->updateEntries(); });
+}
+
 void pqIsopointSearch::updateEntries()
 {
   const QList<QAction*> former = this->Entries->actions();
   qDeleteAll(former);
-  for (const char* const filter : { "ScatteredIsopoints", "ScatteredIsosurface" })
+  const std::pair<const char*, const char*> names[] = {
+    { "ScatteredIsopoints", "Contour samples as points" },
+    { "ScatteredIsosurface", "Contour samples as triangles" },
+  };
+  for (const auto& [filter, name] : names)
   {
     // Actions in the filter menu are named after their filters.
     if (auto* const action = pqCoreUtilities::mainWidget()->findChild<QAction*>(filter))
     {
-      auto* const entry =
-        new QAction(action->icon(), action->text() + " (contour)", this->Entries.get());
+      auto* const entry = new QAction(action->icon(), name, this->Entries.get());
       entry->setObjectName(action->objectName() + "Contour"); // the search needs distinct names
       entry->setEnabled(action->isEnabled());
       entry->setData(action->data());

@@ -7,7 +7,7 @@
 #include <memory>
 
 /// Makes the quick search (Filters > Search) find the filters by "contour". It searches the names
-/// of menu entries, so each filter gets another entry.
+/// of menu entries, so each filter gets another entry, whose name has no word of the filter's.
 class pqIsopointSearch
 {
 public:
@@ -16,6 +16,8 @@ public:
   void shutdown();
 
 private:
+  void registerEntries();
+
   /// Entries with the icons and states of those in the menu.
   void updateEntries();
 

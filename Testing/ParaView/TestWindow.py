@@ -2,14 +2,14 @@
 """The plugin in ParaView's window: TestWindow.py PLUGIN PARAVIEW FILTER_XML EXPORTER_XML"""
 
 import re
-import subprocess
 import sys
 import time
 import xml.etree.ElementTree as ElementTree
 
 import playing
 from playing import (
-    ADVANCED, APPLY, FOLDER, FRAME, WINDOW, Mouse, check, choose, event, expect, expect_of, run, set_property)
+    ADVANCED, APPLY, FOLDER, FRAME, WINDOW, Mouse, check, choose, event, expect, expect_of, run,
+    search, set_property)
 
 PLUGIN, PARAVIEW, FILTER_XML, EXPORTER_XML = sys.argv[1:]
 NAMES = "Scattered Isopoints", "Scattered Isosurface"
@@ -21,13 +21,8 @@ def play(events, more="", **options):
     return playing.play(PARAVIEW, PLUGIN, events, more, **options)
 
 
-def version():
-    """ParaView's version. Since 5.13 the search and labels are other widgets."""
-    said = subprocess.run([PARAVIEW, "--version"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    return tuple(map(int, re.search(r"(\d+)\.(\d+)", said.stdout).groups()))
-
-
-IS_5_13 = version() >= (5, 13)
+# Since 5.13 labels are other widgets.
+IS_5_13 = playing.version_of(PARAVIEW) >= (5, 13)
 
 
 def inputs_are_hidden():
@@ -88,17 +83,12 @@ def help_is_at_labels():
     play([choose(NAMES[0]), expect_help(FRAME + "1QLabel0", FILTER_XML, "SelectInputScalars")])
 
 
-def search_finds_the_filters_by_contour():
-    dialog = WINDOW + ("QuickLaunchDialogExtended/" if IS_5_13 else "QuickLaunchDialog")
-    button = dialog + ("CreateProxy" if IS_5_13 else "/selection")
-    key_press = 6
-    for name in NAMES:
-        words = "contour " + name.split()[1]
-        typed = [event(dialog + "Request", "set_string", words)] if IS_5_13 else [
-            event(dialog, "keyEvent", f"{key_press}:{ord(key)}:0:{key.lower()}:0:1") for key in words.upper()]
-        shown, _ = play([event(WINDOW + "menubar/menuFilters", "activate", "Search...\tCtrl+Space"), *typed,
-                         expect_of(button, "text", f"{name} (contour)"), event(button, "activate"), APPLY], WAVELET)
-        check(len(shown) == 2, f"{name} was created")
+def search_finds_each_filter_once():
+    """By its name, and by "contour"."""
+    for name, kind in zip(NAMES, ("points", "triangles")):
+        for words, found in ((name, name), ("contour samples as " + kind, "Contour samples as " + kind)):
+            shown, _ = play([*search(PARAVIEW, words, found), APPLY], WAVELET)
+            check(len(shown) == 2, f"{name} was created")
 
 
 def an_empty_slice_is_explained():
@@ -183,5 +173,5 @@ def selected_points_keep_their_shapes():
         check(name in play(events, more)[0], f"{name}, an extract of nothing")
 
 
-run(inputs_are_hidden, rows_follow_others, counters_are_texts, help_is_at_labels, search_finds_the_filters_by_contour,
+run(inputs_are_hidden, rows_follow_others, counters_are_texts, help_is_at_labels, search_finds_each_filter_once,
     an_empty_slice_is_explained, isovalues_follow_the_array, selected_points_keep_their_shapes, pictures_are_traced)

@@ -6,6 +6,7 @@ import ctypes
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -17,18 +18,15 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "Python"))
 from checking import check, run  # noqa: E402, F401
 
 # Runs in the window. It reports at each picture, the last time at the end.
+LOAD = "simple.LoadPlugin({plugin!r}, ns=globals())"
 SCRIPT = """
 import json
 from paraview import simple
-simple.LoadPlugin({plugin!r}, ns=globals())
+{load}
 wavelet = simple.Wavelet()
 wavelet.UpdatePipeline()
-isopoints = ScatteredIsopoints(Input=wavelet)
-isopoints.UpdatePipeline()
 view = simple.GetActiveViewOrCreate("RenderView")
-simple.Show(isopoints, view)
 {more}
-simple.SetActiveSource(isopoints)
 
 def report(*_):
     shown = dict()
@@ -40,6 +38,13 @@ def report(*_):
     print("shown:" + json.dumps(shown), flush=True)
 
 view.GetRenderWindow().AddObserver("EndEvent", report)
+"""
+ISOPOINTS = """
+isopoints = ScatteredIsopoints(Input=wavelet)
+isopoints.UpdatePipeline()
+simple.Show(isopoints, view)
+{more}
+simple.SetActiveSource(isopoints)
 """
 
 _temporary = tempfile.TemporaryDirectory()  # removed when the script ends
@@ -72,20 +77,46 @@ def expect(name, state, value="true"):
     return expect_of(FRAME + name, state, value)
 
 
+def version_of(paraview):
+    """The numbers of a version, such as (5, 11, 0)."""
+    said = subprocess.run([paraview, "--version"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    return tuple(map(int, re.search(r"(\d+)\.(\d+)\.(\d+)", said.stdout).groups()))
+
+
+def search(paraview, words, found):
+    """Types words into the quick search. Creates the filter that it finds first, which has this name there."""
+    is_5_13 = version_of(paraview) >= (5, 13)
+    dialog = WINDOW + ("QuickLaunchDialogExtended/" if is_5_13 else "QuickLaunchDialog")
+    button = dialog + ("CreateProxy" if is_5_13 else "/selection")
+    key_press = 6
+    typed = [event(dialog + "Request", "set_string", words)] if is_5_13 else [
+        event(dialog, "keyEvent", f"{key_press}:{ord(key)}:0:{key.lower()}:0:1") for key in words.upper()]
+    return [event(WINDOW + "menubar/menuFilters", "activate", "Search...\tCtrl+Space"), *typed,
+            expect_of(button, "text", found), event(button, "activate")]
+
+
 APPLY = event(PANEL + "Accept", "activate")
 ADVANCED = event(PANEL + "SearchBox/AdvancedButton", "set_boolean", "true")
 
 
 def play(paraview, plugin, events, more="", meanwhile=None, possible=True):
-    """Plays events, while another thread may do something with the process.
+    """Plays events to a window that shows isopoints of a wavelet, while another thread may do something with the
+    process.
     @returns what is shown afterwards, by the names of the pipeline's items, and what was printed"""
+    script = SCRIPT.format(load=LOAD.format(plugin=plugin), more=ISOPOINTS.format(more=more))
+    return play_script([paraview, "--dr"], script, events, meanwhile=meanwhile, possible=possible)
+
+
+def play_script(command, script, events, meanwhile=None, possible=True, home=None, **environment):
+    """play() with the whole script. @param home the folder of the user's settings, by default a new one"""
     folder = tempfile.mkdtemp(dir=FOLDER)
-    script, played = os.path.join(folder, "script.py"), os.path.join(folder, "events.xml")
-    pathlib.Path(script).write_text(SCRIPT.format(plugin=plugin, more=more))
-    pathlib.Path(played).write_text("<?xml version='1.0' ?><pqevents>" + "".join(events) + "</pqevents>")
+    home = home or folder
+    paths = os.path.join(folder, "script.py"), os.path.join(folder, "events.xml")
+    pathlib.Path(paths[0]).write_text(script)
+    pathlib.Path(paths[1]).write_text("<?xml version='1.0' ?><pqevents>" + "".join(events) + "</pqevents>")
     with subprocess.Popen(
-            [paraview, "--dr", "--script=" + script, "--test-script=" + played, "--exit"],
-            env=dict(os.environ, HOME=folder, XDG_RUNTIME_DIR=folder), stdout=subprocess.PIPE,
+            [*command, "--script=" + paths[0], "--test-script=" + paths[1], "--exit"],
+            env=dict(os.environ, HOME=home, XDG_RUNTIME_DIR=home, **environment), stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT, universal_newlines=True) as process:
         if meanwhile:
             threading.Thread(target=meanwhile, args=[process], daemon=True).start()
@@ -97,6 +128,7 @@ def play(paraview, plugin, events, more="", meanwhile=None, possible=True):
             sys.exit("failed: ParaView waits, in a dialog if an event could not be played")
     print(said)
     check(("Success =  true" in said) == possible, f"events could{' not' * possible} be played")
+    check(process.returncode == (0 if possible else 1), f"the window closes: {process.returncode}")
     reports = [line[6:] for line in said.splitlines() if line.startswith("shown:")]
     check(reports, "nothing was reported")
     return json.loads(reports[-1]), said

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Each way of loading the plugin into ParaView's window: TestWindowStarts.py PLUGIN PARAVIEW
+
+ParaView loads the plugin before there is a window, while it makes that, or later. What the plugin adds to the window
+works each time."""
+
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+from playing import APPLY, FOLDER, SCRIPT, WINDOW, check, choose, event, play_script, run, search, version_of
+
+PLUGIN, PARAVIEW = sys.argv[1:]
+SETTINGS = Path(".config/ParaView") / "ParaView{}.{}.{}.ini".format(*version_of(PARAVIEW))
+MANAGER = WINDOW + "PluginManagerDialog/"
+LOAD_NEW = [event(WINDOW + "menubar/menuTools", "activate", "actionManage_Plugins"),
+            event(MANAGER + "splitter/localGroup/loadLocal", "activate"),
+            event(MANAGER + "pqFileDialog", "filesSelected", PLUGIN),
+            event(MANAGER + "buttonBox/1QPushButton0", "activate")]
+
+
+def new_home():
+    """A folder of settings without the dialog that greets new users."""
+    home = Path(tempfile.mkdtemp(dir=FOLDER))
+    (home / SETTINGS).parent.mkdir(parents=True)
+    (home / SETTINGS).write_text("[General]\nGeneralSettings.ShowWelcomeDialog=false\n")
+    return home
+
+
+def use_window(home, events=(), **environment):
+    """Applies filters from the menu and from the search, exports a picture, and closes the window."""
+    picture = home / "traced.png"
+    settings = WINDOW + "RayTracingOptions/"
+    samples = settings + "scrollArea/qt_scrollarea_viewport/Container/ProxyWidget/SamplesPerPixel/IntRangeWidget/"
+    shown, _ = play_script(
+        [PARAVIEW], SCRIPT.format(load="", more="simple.SetActiveSource(wavelet)"),
+        [*events, choose("ScatteredIsopoints"), APPLY, choose("Clip"), APPLY,
+         event(WINDOW + "menubar/menu_File", "activate", "actionExportRayTracedPicture"),
+         event(WINDOW + "FileExportDialog", "filesSelected", str(picture)),
+         event(samples + "LineEdit", "set_string", "1"), event(settings + "widget/OKButton", "activate"),
+         *search(PARAVIEW, "contour samples", "Contour samples as points"), APPLY],
+        home=str(home), **environment)
+    check(shown["ScatteredIsopoints1"] == [0, "Isopoint Splats"], f"the input of Clip is hidden: {shown}")
+    check("ScatteredIsopoints2" in shown, f"the search created a filter: {shown}")
+    check(picture.exists(), "the picture was exported")
+
+
+def plugin_of_the_search_path():
+    use_window(new_home(), PV_PLUGIN_PATH=os.path.dirname(PLUGIN))
+
+
+def loaded_plugin_then_automatically():
+    """Load New, then Auto Load in the same settings."""
+    home = new_home()
+    use_window(home, LOAD_NEW)
+    settings = (home / SETTINGS).read_text()
+    own = f'filename=\\"{PLUGIN}\\" auto_load=\\"'
+    check(settings.count(own + "0") == 1, "the settings list the plugin")
+    (home / SETTINGS).write_text(settings.replace(own + "0", own + "1"))
+    use_window(home)
+
+
+run(plugin_of_the_search_path, loaded_plugin_then_automatically)
