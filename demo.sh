@@ -8,7 +8,8 @@ usage()
   cat << END
 usage: $0 [--triangles] [FILE ARRAY ISOVALUE]
 Builds the plugin if necessary, computes the isopoints of a file's point or cell array with ParaView, and
-writes isopoints.vtp and isosurface.png to the current folder. Without a file the samples are a
+writes isopoints.vtp and isosurface.png to the current folder. Where splats leave holes between the samples,
+it draws triangles as well, and writes triangles.vtp and triangles.png. Without a file the samples are a
 million random ones of the distance to a point; their true isosurface is a sphere, errors are printed,
 and comparison.png is written as well.
   --triangles   computes the isosurface as triangles instead, and writes triangles.vtp and isosurface.png

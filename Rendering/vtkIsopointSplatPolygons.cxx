@@ -36,6 +36,7 @@
 #include <cstddef>
 #include <limits>
 #include <new>
+#include <set>
 #include <string>
 
 vtkStandardNewMacro(vtkIsopointSplatPolygons);
@@ -204,6 +205,21 @@ vtkIsopointSplatPolygons::~vtkIsopointSplatPolygons()
   this->SetRadiusArrayName(nullptr);
 }
 
+void vtkIsopointSplatPolygons::SetRadiusScale(double scale)
+{
+  if (scale < 0.0)
+  {
+    vtkWarningMacro("The radius scale " << scale << " is negative: nothing is drawn. Set it to 1 for"
+                                        << " splats that close the surface.");
+  }
+  const double clamped = std::max(scale, 0.0);
+  if (clamped != this->RadiusScale)
+  {
+    this->RadiusScale = clamped;
+    this->Modified();
+  }
+}
+
 int vtkIsopointSplatPolygons::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
@@ -242,11 +258,12 @@ int vtkIsopointSplatPolygons::RequestData(
   vtkDataObject* const input = vtkDataObject::GetData(inputVector[0]);
   vtkDataObject* const output = vtkDataObject::GetData(outputVector);
   this->ErrorCode = vtkErrorCode::NoError;
+  std::set<std::string> problems; // each once, of all blocks
   try
   {
     if (const auto data = vtkDataSet::SafeDownCast(input))
     {
-      this->MakePolygons(data, vtkPolyData::SafeDownCast(output));
+      problems.insert(this->MakePolygons(data, vtkPolyData::SafeDownCast(output)));
     }
     else if (const auto blocks = vtkCompositeDataSet::SafeDownCast(input))
     {
@@ -263,7 +280,7 @@ int vtkIsopointSplatPolygons::RequestData(
           this->SetProgressShiftScale(done / std::max(all, 1.0), count / std::max(all, 1.0));
           done += count;
           vtkNew<vtkPolyData> made;
-          this->MakePolygons(block, made);
+          problems.insert(this->MakePolygons(block, made));
           polygons->SetDataSet(iterator, made);
         }
       }
@@ -282,25 +299,25 @@ int vtkIsopointSplatPolygons::RequestData(
                   << " points are not drawn. Close other data, or pass fewer points.");
   }
   this->SetProgressShiftScale(0.0, 1.0);
+  problems.erase("");
+  for (const std::string& problem : problems)
+  {
+    vtkWarningMacro(<< problem);
+  }
   return 1;
 }
 
-void vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyData* output)
+std::string vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyData* output)
 {
   output->GetFieldData()->ShallowCopy(input->GetFieldData());
   const vtkIdType count = input->GetNumberOfPoints();
   if (count == 0)
   {
-    return;
+    return {};
   }
   const vtkIsopointVertexCells cells(input);
   const vtkIsopointSplatShapes shapes(
     input, cells, this->RadiusArrayName, this->Radius, this->RadiusScale);
-  const std::string problem = shapes.Problem();
-  if (!problem.empty())
-  {
-    vtkWarningMacro(<< problem);
-  }
   double first[3];
   input->GetPoint(0, first); // computes what data sets cache
   const Execution execution = vtkMakeSMPExecution(this);
@@ -325,7 +342,7 @@ void vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyData* outp
   const vtkIdType* const ids = cellIds->GetPointer(0);
   if (std::any_of(ids, ids + mesh.triangles.size(), [](vtkIdType cell) { return cell < 0; }))
   {
-    return;
+    return shapes.Problem();
   }
   copyArrays(input->GetCellData(), output->GetCellData(),
     [&](vtkAbstractArray* array)
@@ -337,6 +354,7 @@ void vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyData* outp
       return copy;
     });
   output->GetCellData()->AddArray(cellIds);
+  return shapes.Problem();
 }
 
 void vtkIsopointSplatPolygons::PrintSelf(ostream& os, vtkIndent indent)

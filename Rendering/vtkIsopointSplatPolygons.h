@@ -43,6 +43,8 @@
 #include "vtkDataObjectAlgorithm.h"
 #include "vtkScatteredIsopointRenderingModule.h" // for the export macro
 
+#include <string> // for private methods
+
 class vtkDataSet;
 class vtkPolyData;
 
@@ -74,9 +76,10 @@ public:
 
   ///@{
   /**
-   * Factor on the size of all splats. Range: 0 or more. Default: 1.
+   * Factor on the size of all splats. Range: 0 or more; a negative one gives a warning and counts
+   * as 0, which draws nothing. Default: 1.
    */
-  vtkSetClampMacro(RadiusScale, double, 0.0, VTK_DOUBLE_MAX);
+  virtual void SetRadiusScale(double scale);
   vtkGetMacro(RadiusScale, double);
   ///@}
 
@@ -99,8 +102,9 @@ private:
   vtkIsopointSplatPolygons(const vtkIsopointSplatPolygons&) = delete;
   void operator=(const vtkIsopointSplatPolygons&) = delete;
 
+  /// @returns what to warn of, empty if nothing
   /// @throws isopoint::Aborted, std::bad_alloc
-  void MakePolygons(vtkDataSet* input, vtkPolyData* output);
+  std::string MakePolygons(vtkDataSet* input, vtkPolyData* output);
 };
 
 #endif

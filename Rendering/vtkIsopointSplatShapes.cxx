@@ -132,6 +132,7 @@ vtkIsopointSplatShapes::vtkIsopointSplatShapes(vtkDataSet* data,
   if (!this->Radii && !(radius > 0.0))
   {
     this->Radius = automaticRadius(data);
+    this->IsRadiusDerived = true;
   }
 }
 
@@ -159,6 +160,11 @@ std::string vtkIsopointSplatShapes::Problem() const
   {
     return "The points have splats but no active normals: octahedra are drawn. Make the array "
            "\"Normals\" the active normals.";
+  }
+  if (!this->Normals && this->IsRadiusDerived)
+  {
+    return "The points have neither normals nor radii: octahedra of one size are drawn. Pass the "
+           "output of vtkScatteredIsopointFilter (Scattered Isopoints).";
   }
   return "";
 }

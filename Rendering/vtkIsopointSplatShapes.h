@@ -24,7 +24,7 @@ public:
   vtkIsopointSplatShapes(vtkDataSet* data, const vtkIsopointVertexCells& cells,
     const char* radiusArrayName, double radius, double scale);
 
-  /// A description of invalid shape arrays, for a warning; empty if they are valid.
+  /// What makes splats other than those of isopoints, for a warning; empty if nothing does.
   std::string Problem() const;
 
   isopoint::SplatFan Fan(vtkIdType point) const;
@@ -44,6 +44,7 @@ private:
   vtkDataArray* Polygons;
   vtkUnsignedCharArray* Ghosts;
   double Radius;
+  bool IsRadiusDerived = false; // from the number of points
   double Scale;
   double PositionError;
 };

@@ -3,7 +3,8 @@
 isosurface.png.
 
 The environment names the file (ISOPOINTS_FILE, in any format that ParaView reads), the array
-(ISOPOINTS_ARRAY) and the isovalue (ISOPOINTS_ISOVALUE). By default the samples are random positions in a
+(ISOPOINTS_ARRAY) and the isovalue (ISOPOINTS_ISOVALUE). If splats leave holes between the samples,
+triangles.vtp and triangles.png are written as well. By default the samples are random positions in a
 cube of side 200, with the distance to its center as values, so that errors are known; comparison.png is
 written too. If ISOPOINTS_FILTER is "triangles", writes triangles.vtp and isosurface.png instead.
 """
@@ -163,6 +164,40 @@ def compare(pictures, bounds, path):
     writer.Write()
 
 
+def contoured(source, array, isovalue, is_mesh):
+    """The updated filter, and its warnings."""
+    filter_ = (simple.ScatteredIsosurface if is_mesh else simple.ScatteredIsopoints)(Input=source)
+    filter_.ContourBy = ["POINTS", array]
+    filter_.Isosurfaces = [isovalue]
+    warnings = []
+
+    def warn(_, __, text):
+        warnings.append(text)
+        say("warning: " + text.strip())
+
+    warn.CallDataType = "string0"
+    filter_.GetClientSideObject().AddObserver("WarningEvent", warn)
+    start = time.perf_counter()
+    filter_.UpdatePipeline()
+    seconds = time.perf_counter() - start
+    output = filter_.GetClientSideObject().GetOutput()
+    say("samples           %d" % source.GetDataInformation().GetNumberOfPoints())
+    if is_mesh:
+        say("triangles         %d" % output.GetNumberOfPolys())
+    say("%s         %d" % ("vertices " if is_mesh else "isopoints", output.GetNumberOfPoints()))
+    say("seconds           %.3f" % seconds)
+    return filter_, warnings
+
+
+def draw(surface, is_mesh, path, bounds):
+    """Writes a surface and its picture. @returns the names of the files"""
+    name = "triangles.vtp" if is_mesh else "isopoints.vtp"
+    simple.SaveData(name, proxy=surface, DataMode="Binary")
+    say("drawing " + path)
+    picture(surface, "Surface" if is_mesh else "Isopoint Splats", path, [1000, 800], bounds)
+    return [name, path]
+
+
 def main(plugin):
     simple.LoadPlugin(plugin)
     path = os.environ.get("ISOPOINTS_FILE")
@@ -175,21 +210,9 @@ def main(plugin):
         source = sphere_samples()
 
     is_mesh = os.environ.get("ISOPOINTS_FILTER") == "triangles"
-    isopoints = (simple.ScatteredIsosurface if is_mesh else simple.ScatteredIsopoints)(Input=source)
-    isopoints.ContourBy = ["POINTS", array]
-    isopoints.Isosurfaces = [float(isovalue)]
-    start = time.perf_counter()
-    isopoints.UpdatePipeline()
-    seconds = time.perf_counter() - start
-
+    isopoints, warnings = contoured(source, array, float(isovalue), is_mesh)
     output = isopoints.GetClientSideObject().GetOutput()
-    count = output.GetNumberOfPoints()
-    say("samples           %d" % source.GetDataInformation().GetNumberOfPoints())
-    if is_mesh:
-        say("triangles         %d" % output.GetNumberOfPolys())
-    say("%s         %d" % ("vertices " if is_mesh else "isopoints", count))
-    say("seconds           %.3f" % seconds)
-    if count == 0:
+    if output.GetNumberOfPoints() == 0:
         limits = source.PointData[array].GetRange()
         fail("there are no isopoints: the values of %s range from %g to %g" % (array, *limits))
     if not path:
@@ -198,13 +221,12 @@ def main(plugin):
         say("largest deviation %.5f" % deviation.max())
         say("mean deviation    %.5f" % deviation.mean())
 
-    name = "triangles.vtp" if is_mesh else "isopoints.vtp"
-    simple.SaveData(name, proxy=isopoints, DataMode="Binary")
-    say("drawing isosurface.png")
     bounds = output.GetBounds()
-    picture(
-        isopoints, "Surface" if is_mesh else "Isopoint Splats", "isosurface.png", [1000, 800], bounds)
-    written = [name, "isosurface.png"]
+    written = draw(isopoints, is_mesh, "isosurface.png", bounds)
+    if any("Splats do not meet" in warning for warning in warnings):
+        say("isosurface.png shows splats, which leave holes between these samples; triangles.png will show triangles")
+        triangles, _ = contoured(source, array, float(isovalue), True)
+        written += draw(triangles, True, "triangles.png", bounds)
     if not path and not is_mesh:
         say(
             "drawing comparison.png: from left to right splats, Point Gaussian, and Contour of the samples"

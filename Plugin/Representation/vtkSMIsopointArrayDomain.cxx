@@ -59,6 +59,12 @@ bool isField(vtkPVDataInformation* data, const char* name, int association)
   return range[0] < range[1] && !canBeNumbers(array, range);
 }
 
+bool isNothingChosen(vtkSMProperty* property)
+{
+  const char* const chosen = vtkSMPropertyHelper(property).GetInputArrayNameToProcess();
+  return !chosen || !chosen[0];
+}
+
 } // namespace
 
 int vtkSMIsopointArrayDomain::SetDefaultValues(vtkSMProperty* property, bool usesUncheckedValues)
@@ -68,7 +74,7 @@ int vtkSMIsopointArrayDomain::SetDefaultValues(vtkSMProperty* property, bool use
   vtkSMPropertyHelper helper(property);
   helper.SetUseUnchecked(usesUncheckedValues);
   const char* const chosen = helper.GetInputArrayNameToProcess();
-  bool isSet = !data || !chosen || isField(data, chosen, helper.GetInputArrayAssociation());
+  bool isSet = !data || (chosen && isField(data, chosen, helper.GetInputArrayAssociation()));
   for (unsigned int i = 0; !isSet && i < this->GetNumberOfStrings(); ++i)
   {
     const int association = this->GetFieldAssociation(i);
@@ -100,7 +106,8 @@ void vtkSMIsopointArrayDomain::Update(vtkSMProperty* requestingProperty)
   const bool isReplaced = this->Input && this->Input.GetPointer() != input;
   this->Input = input;
   vtkSMProperty* const property = this->GetProperty();
-  if (isReplaced && property && this->GetNumberOfStrings() > 0 && this->IsReplaceable(property))
+  if (property && this->GetNumberOfStrings() > 0 &&
+      (isReplaced ? this->IsReplaceable(property) : isNothingChosen(property)))
   {
     this->SetDefaultValues(property, false);
   }
@@ -126,7 +133,7 @@ bool vtkSMIsopointArrayDomain::IsReplaceable(vtkSMProperty* property)
 {
   const char* const chosen = vtkSMPropertyHelper(property).GetInputArrayNameToProcess();
   unsigned int index = 0;
-  if (!chosen || !this->IsInDomain(chosen, index))
+  if (isNothingChosen(property) || !this->IsInDomain(chosen, index))
   {
     return true;
   }

@@ -4,6 +4,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
+#include "vtkSMProxy.h"
 #include "vtkSMUncheckedPropertyHelper.h"
 
 vtkStandardNewMacro(vtkSMIsopointRangeDomain);
@@ -29,6 +30,7 @@ int vtkSMIsopointRangeDomain::SetDefaultValues(vtkSMProperty* property, bool use
   std::optional<double>& value = usesUncheckedValues ? this->ShownDefault : this->Default;
   value = result && helper.GetNumberOfElements() == 1 ? std::optional(helper.GetAsDouble())
                                                       : std::nullopt;
+  this->WaitsForArray = !result;
   return result;
 }
 
@@ -43,19 +45,28 @@ void vtkSMIsopointRangeDomain::Update(vtkSMProperty* requestingProperty)
   }
   vtkSMUncheckedPropertyHelper shown(selection);
   const std::string array = chosenArray(shown);
-  const bool isAnother = !this->Array.empty() && array != this->Array;
+  const bool isAnother = (!this->Array.empty() || this->WaitsForArray) && array != this->Array;
   this->Array = array;
   if (isAnother && this->IsDefault(property))
   {
     // A choice that is not applied yet only changes the panel.
     vtkSMPropertyHelper applied(selection);
+    const bool waited = this->WaitsForArray;
     this->SetDefaultValues(property, array != chosenArray(applied));
+    if (waited)
+    {
+      property->GetParent()->UpdateVTKObjects(); // nobody applies what the user did not change
+    }
   }
 }
 
 bool vtkSMIsopointRangeDomain::IsDefault(vtkSMProperty* property) const
 {
   vtkSMUncheckedPropertyHelper isovalues(property);
+  if (this->WaitsForArray)
+  {
+    return isovalues.GetNumberOfElements() == 0;
+  }
   const std::optional<double> isovalue =
     isovalues.GetNumberOfElements() == 1 ? std::optional(isovalues.GetAsDouble()) : std::nullopt;
   return isovalue && (isovalue == this->Default || isovalue == this->ShownDefault);

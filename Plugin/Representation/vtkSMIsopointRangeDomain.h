@@ -4,8 +4,8 @@
  * @brief   a range whose default follows the array
  *
  * The default isovalue is the middle of the array's range, as with vtkSMArrayRangeDomain. If
- * another array is chosen while the isovalue is the default, it becomes the middle of the new
- * range. Other isovalues, those of a loaded state, and all if only the data change, are kept.
+ * another array is chosen while the isovalue is the default, or an array comes where there was
+ * none, it becomes the middle of the new range. Other isovalues, those of a loaded state, and all if only the data change, are kept.
  *
  * The required properties are those of vtkSMArrayRangeDomain: "Input", "ArraySelection".
  */
@@ -42,6 +42,7 @@ private:
   std::string Array;                  // of the range, with its association
   std::optional<double> Default;      // value that the property was set to
   std::optional<double> ShownDefault; // the same, if not applied yet
+  bool WaitsForArray = false;         // there was no range for a default
 
   vtkSMIsopointRangeDomain(const vtkSMIsopointRangeDomain&) = delete;
   void operator=(const vtkSMIsopointRangeDomain&) = delete;

@@ -4,9 +4,12 @@
 #include "vtkObjectFactory.h"
 #include "vtkOutputWindow.h"
 #include "vtkPVPluginTracker.h"
+#include "vtkPythonInterpreter.h"
 #include "vtkSMTrace.h"
 
 #include <cstring>
+#include <iomanip>
+#include <sstream>
 #include <string>
 
 vtkStandardNewMacro(vtkSMIsopointSourceProxy);
@@ -30,6 +33,26 @@ std::string findPluginFile()
   return {};
 }
 
+/// Makes the active trace load the plugin, at its beginning: classes that Python makes of
+/// representations before lack the properties of splats.
+void traceLoading(const std::string& file)
+{
+  std::ostringstream script;
+  script << R"python(
+def trace_loading(file):
+    from paraview import smtrace
+    lines = smtrace.Trace.Output.raw_data()
+    load = ["# load the plugin of Scattered Isopoints, unless it is loaded",
+            "if 'ScatteredIsopoints' not in globals():", f"    LoadPlugin({file!r}, ns=globals())"]
+    if load[0] not in lines:
+        start = lines.index("from paraview.simple import *") + 1
+        lines[start:start] = load
+
+trace_loading()python"
+         << std::quoted(file) << ")\ndel trace_loading\n";
+  vtkPythonInterpreter::RunSimpleString(script.str().c_str());
+}
+
 } // namespace
 
 void vtkSMIsopointSourceProxy::AddConsumer(vtkSMProperty* property, vtkSMProxy* consumer)
@@ -46,17 +69,10 @@ void vtkSMIsopointSourceProxy::AddConsumer(vtkSMProperty* property, vtkSMProxy* 
 
 void vtkSMIsopointSourceProxy::CreateVTKObjects()
 {
-  if (!this->ObjectsCreated && vtkSMTrace::GetActiveTracer())
+  const std::string file = findPluginFile();
+  if (!this->ObjectsCreated && vtkSMTrace::GetActiveTracer() && !file.empty())
   {
-    const std::string file = findPluginFile();
-    if (!file.empty())
-    {
-      const std::string text = std::string("if '") + this->GetXMLName() +
-                               "' not in globals():\n    LoadPlugin('" + file + "', ns=globals())";
-      SM_SCOPED_TRACE(TraceText)
-        .arg(text.c_str())
-        .arg("comment", "load the plugin of the filter, unless it is loaded");
-    }
+    traceLoading(file);
   }
   this->Superclass::CreateVTKObjects();
 }

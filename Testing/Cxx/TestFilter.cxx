@@ -48,6 +48,10 @@ TEST(Filter, OutputFollowsTheConventions)
   {
     EXPECT_TRUE(data->HasArray(name)) << name;
   }
+  for (const char* const name : { "SplatAxis", "SplatPolygon" })
+  {
+    EXPECT_TRUE(output->GetCellData()->HasArray(name)) << name;
+  }
   EXPECT_EQ(errors->count(), 0u);
 }
 

@@ -6,6 +6,7 @@
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <algorithm>
 #include <cerrno>
 
 using namespace inputtesting;
@@ -152,7 +153,33 @@ TEST(Messages, APlaneIsExplained)
   const auto triangles = newFilter<Isosurface>(cloud);
   const auto warnings = watchMessages(triangles, vtkCommand::WarningEvent);
   expectOneWarning(triangles, { "plane", "Delaunay 2D" });
-  EXPECT_EQ(warnings->last().find("Scattered Isopoints"), std::string::npos);
+  for (const char* const noRemedy : { "Scattered Isopoints", "DropGaps" })
+  {
+    EXPECT_EQ(warnings->last().find(noRemedy), std::string::npos) << noRemedy;
+  }
+}
+
+TEST(Messages, TooFewSamplesAreCounted)
+{
+  const auto cloud = newCloud(3);
+  setScalars(
+    cloud, [](const Vector& p) { return p[0]; }, "distance");
+  const auto limits = distancesOf(cloud)->GetRange();
+  const Words messages =
+    messagesOf(newFilter<Isosurface>(cloud, 0.5 * (limits[0] + limits[1])));
+  expectOne(messages, { "only 3 samples", "Add samples" });
+  EXPECT_EQ(messages.front().find("DropGaps"), std::string::npos);
+}
+
+TEST(Messages, NamesOfPropertiesCanBeThoseOfParaViewsPanel)
+{
+  const auto allInGaps = std::find_if(cases.begin(), cases.end(),
+    [](const Case& each) { return each.name == std::string("all in gaps"); });
+  Subject subject;
+  subject.filter = newFilter(subject.cloud);
+  allInGaps->change(subject);
+  subject.filter->UsePanelNamesOn();
+  expectOneWarning(subject.filter, { "25", "Turn Drop Gaps off" });
 }
 
 TEST(Messages, IsovaluesBetweenBlocksAreNotInGaps)

@@ -54,6 +54,9 @@ def the_array_of_an_input():
                                       vtkGhostType=ghosts)),
                 ("second", "second", dict(BlockId=number(0), first=distance, second=distance)),
                 ("first", "BlockId", dict(BlockId=number(0), first=distance, second=distance)),
+                ("first", "Index", dict(Index=ids, first=distance)),
+                ("first", "Number", dict(Number=lambda p: ids(p) + 1.0, first=distance)),
+                ("Index", None, dict(Index=ids)),
                 ("BlockId", None, dict(BlockId=number(0)))):
             data, blocks = lattice(association, **arrays), vtkMultiBlockDataSet()
             attributes = attributes_of(data, association)
@@ -68,7 +71,7 @@ def the_array_of_an_input():
                     isopoints = create(Input=source)
                     found = list(isopoints.ContourBy)
                     check(found == [association, chosen], f"chosen {found}, not {chosen}")
-                    if chosen != "BlockId":
+                    if arrays[chosen] is distance:
                         low, high = distance(np.array([[6.0] * 3, [0.0] * 3]))
                         check(len(isopoints.Isosurfaces) == 1 and low < isopoints.Isosurfaces[0] < high,
                               f"an isovalue within the range: {isopoints.Isosurfaces}")
@@ -136,6 +139,26 @@ def isovalue_follows_the_array():
         check(list(given.Isosurfaces) == [first], "an isovalue that is given with the array stays")
 
 
+def arrays_may_come_later():
+    """As those that are ticked in a reader when there is a filter already: array, list and isovalue appear."""
+    path = path_of("lattice.vti")
+    simple.SaveData(path, produced(lattice("POINTS", late=lambda p: 10 * distance(p), other=distance)),
+                    DataMode="Binary")
+    for create in FILTERS:
+        source = simple.XMLImageDataReader(FileName=[path], PointArrayStatus=[])
+        source.UpdatePipeline()
+        isopoints = create(Input=source)
+        check(not offered_arrays(isopoints) and len(isopoints.Isosurfaces) == 0, "nothing to choose")
+        source.PointArrayStatus = ["late"]
+        source.UpdatePipeline()
+        check(offered_arrays(isopoints) == ["late"] == [isopoints.ContourBy[1]], f"chosen: {isopoints.ContourBy}")
+        check(len(isopoints.Isosurfaces) == 1, "an isovalue")
+        check(number_of_points(updated(isopoints)) > 100, "points")
+        source.PointArrayStatus = ["late", "other"]
+        source.UpdatePipeline()
+        check(isopoints.ContourBy[1] == "late", "the choice stays")
+
+
 def panel():
     source = simple.Wavelet()
     for name, has_both in (("DropGaps", True), ("Regularize", False)):
@@ -148,4 +171,5 @@ def panel():
 
 
 run(the_array_of_an_input, arrays_without_isosurfaces_are_not_offered, triangles_are_saved_as_stl,
-    input_matters_rather_than_the_active_source, isovalue_follows_the_array, panel)
+    input_matters_rather_than_the_active_source, isovalue_follows_the_array, arrays_may_come_later,
+    panel)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The plugin in ParaView's window: TestWindow.py PLUGIN PARAVIEW FILTER_XML EXPORTER_XML"""
+"""The plugin in ParaView's window: TestWindow.py PLUGIN PARAVIEW PVBATCH FILTER_XML EXPORTER_XML"""
 
+import json
 import re
 import sys
 import time
@@ -8,10 +9,10 @@ import xml.etree.ElementTree as ElementTree
 
 import playing
 from playing import (
-    ADVANCED, APPLY, FOLDER, FRAME, WINDOW, Mouse, check, choose, event, expect, expect_of, run,
-    search, set_property)
+    ADVANCED, APPLY, FOLDER, FRAME, LOAD, SCRIPT, WINDOW, Mouse, check, choose, event, expect, expect_of, play_script,
+    run, run_script, search, set_isovalue, set_property, set_radius_scale)
 
-PLUGIN, PARAVIEW, FILTER_XML, EXPORTER_XML = sys.argv[1:]
+PLUGIN, PARAVIEW, PVBATCH, FILTER_XML, EXPORTER_XML = sys.argv[1:]
 NAMES = "Scattered Isopoints", "Scattered Isosurface"
 SPLATS = "Isopoint Splats"
 WAVELET = "isopoints = wavelet"  # in place of isopoints as the input of filters
@@ -99,6 +100,20 @@ def an_empty_slice_is_explained():
         check(explained == count, f"explained {explained} times instead of {count}")
 
 
+def empty_results_keep_splats():
+    """Later results are splats again, also after a first one that was empty."""
+    shown, said = play([*set_isovalue("5000"), APPLY, *set_isovalue("157"), APPLY])
+    check(shown == {"ScatteredIsopoints1": [1, SPLATS]}, f"splats: {shown}")
+    check("ERR|" not in said, "no error")
+    shown, _ = play([choose(NAMES[0]), *set_isovalue("5000"), APPLY, *set_isovalue("157"), APPLY], WAVELET)
+    check(shown["ScatteredIsopoints2"] == [1, SPLATS], f"splats: {shown}")
+
+
+def negative_sizes_are_explained():
+    _, said = play([set_radius_scale("-1")])
+    check(others_of(said).count("radius scale -1 is negative") == 1, "one message")
+
+
 def isovalues_follow_the_array():
     """The panel changes the isovalue before the user applies anything."""
     more = """
@@ -173,5 +188,30 @@ def selected_points_keep_their_shapes():
         check(name in play(events, more)[0], f"{name}, an extract of nothing")
 
 
+TRACES = """
+from paraview import smtrace
+smtrace.start_trace(preamble="")
+samples = simple.Elevation(Input=simple.PointSource(NumberOfPoints=3000, Radius=1.0))
+simple.Show(samples, view)
+simple.SetActiveSource(samples)
+view.GetRenderWindow().AddObserver(
+    "EndEvent", lambda *_: print("trace:" + json.dumps(smtrace.get_current_trace_output()), flush=True))
+"""
+
+
+def a_trace_runs_elsewhere():
+    """A trace loads the plugin before it shows the samples."""
+    _, said = play_script([PARAVIEW, "--dr"], SCRIPT.format(load=LOAD.format(plugin=PLUGIN), more=TRACES),
+                          [choose("ScatteredIsopoints"), APPLY, set_radius_scale("0.5")])
+    trace = json.loads([line[6:] for line in said.splitlines() if line.startswith("trace:")][-1])
+    check("SplatRadiusScale = 0.5" in trace, trace)
+    (found,), _ = run_script(PVBATCH, trace + """
+display = GetDisplayProperties(FindSource("ScatteredIsopoints1"))
+print("found:", str(display.Representation).strip("'"), display.SplatRadiusScale)
+""")
+    check(found == f"found: {SPLATS} 0.5", found)
+
+
 run(inputs_are_hidden, rows_follow_others, counters_are_texts, help_is_at_labels, search_finds_each_filter_once,
-    an_empty_slice_is_explained, isovalues_follow_the_array, selected_points_keep_their_shapes, pictures_are_traced)
+    an_empty_slice_is_explained, empty_results_keep_splats, negative_sizes_are_explained, isovalues_follow_the_array,
+    selected_points_keep_their_shapes, a_trace_runs_elsewhere, pictures_are_traced)

@@ -52,7 +52,8 @@ FOLDER = pathlib.Path(_temporary.name)
 
 WINDOW = "pqClientMainWindow/"
 PANEL = WINDOW + "propertiesDock/propertiesPanel/"
-FRAME = PANEL + "scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/PropertiesFrame/ProxyPanel/"
+_FRAMES = PANEL + "scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/"
+FRAME, DISPLAY = (_FRAMES + name + "Frame/ProxyPanel/" for name in ("Properties", "Display"))
 
 
 def event(item, command, arguments=""):
@@ -66,6 +67,15 @@ def choose(name):
 def set_property(name, value):
     kind, command = ("CheckBox", "set_boolean") if value in ("true", "false") else ("ComboBox", "set_string")
     return event(f"{FRAME}{name}/{kind}", command, value)
+
+
+def set_isovalue(value):
+    table = FRAME + "ContourValues/ScalarValueList/Table"
+    return [event(table, "edit", "0.0"), event(table, "editAccepted", f"0.0,{value}")]
+
+
+def set_radius_scale(value):
+    return event(DISPLAY + "SplatRadiusScale/DoubleLineEdit0", "set_string", value)
 
 
 def expect_of(item, state, value):
