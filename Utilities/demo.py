@@ -172,8 +172,8 @@ def contoured(source, array, isovalue, is_mesh):
     warnings = []
 
     def warn(_, __, text):
-        warnings.append(text)
-        say("warning: " + text.strip())
+        warnings.append(text.split("): ", 1)[-1].strip())  # without the names of the source file and object
+        say("warning: " + warnings[-1])
 
     warn.CallDataType = "string0"
     filter_.GetClientSideObject().AddObserver("WarningEvent", warn)

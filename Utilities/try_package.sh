@@ -8,8 +8,8 @@ usage()
   cat << END
 usage: $0 FOLDER RELEASE PACKAGE
 Makes a bare root of the Debian RELEASE below FOLDER with debootstrap, unless it is there, and in it
-installs PACKAGE, a .deb, as a user would. ParaView must list its plugin and load it automatically, and
-nothing may be left of it when it is removed. Needs root,
+installs PACKAGE, a .deb, as a user would. ParaView must list its plugin and load it automatically, all that
+it adds to the window must work, and nothing may be left of it when it is removed. Needs root,
 debootstrap and 3 GiB.
 END
 }
@@ -48,11 +48,14 @@ use_package()
   in_root "cd /root && python3 module.py && ./offscreen.sh pvbatch script.py"
   in_root "cd /root && ./offscreen.sh paraview --script=window.py && test -s listed"
   in_root "rm /root/listed"
+  in_root "cd /root && ./offscreen.sh python3 Testing/ParaView/TestWindowStarts.py paraview"
 }
 
 make_root "$2" "$root"
 cp "$package" "$root/root/package.deb"
-cp "$(dirname "${BASH_SOURCE[0]}")/offscreen.sh" "$root/root/"
+source_dir=$(dirname "${BASH_SOURCE[0]}")/..
+cp "$source_dir/Utilities/offscreen.sh" "$root/root/"
+(cd "$source_dir" && cp --parents Testing/ParaView/{TestWindowStarts,playing}.py Testing/Python/checking.py "$root/root/")
 cat > "$root/root/script.py" << END
 from paraview.simple import *
 SaveData("isopoints.vtp", ScatteredIsopoints(Input=Wavelet(), Isosurfaces=[157.0]))

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Each way of loading the plugin into ParaView's window: TestWindowStarts.py PLUGIN PARAVIEW
+"""Each way of loading the plugin into ParaView's window: TestWindowStarts.py PARAVIEW [PLUGIN]
 
 ParaView loads the plugin before there is a window, while it makes that, or later. What the plugin adds to the window
-works each time."""
+works each time. Without PLUGIN, the plugin is installed, and ParaView loads it because of a configuration file."""
 
 import os
 import sys
@@ -11,13 +11,9 @@ from pathlib import Path
 
 from playing import APPLY, FOLDER, SCRIPT, WINDOW, check, choose, event, play_script, run, search, version_of
 
-PLUGIN, PARAVIEW = sys.argv[1:]
+PARAVIEW, *PLUGINS = sys.argv[1:]
 SETTINGS = Path(".config/ParaView") / "ParaView{}.{}.{}.ini".format(*version_of(PARAVIEW))
 MANAGER = WINDOW + "PluginManagerDialog/"
-LOAD_NEW = [event(WINDOW + "menubar/menuTools", "activate", "actionManage_Plugins"),
-            event(MANAGER + "splitter/localGroup/loadLocal", "activate"),
-            event(MANAGER + "pqFileDialog", "filesSelected", PLUGIN),
-            event(MANAGER + "buttonBox/1QPushButton0", "activate")]
 
 
 def new_home():
@@ -46,19 +42,26 @@ def use_window(home, events=(), **environment):
     check(picture.exists(), "the picture was exported")
 
 
+def plugin_of_a_configuration_file():
+    use_window(new_home())
+
+
 def plugin_of_the_search_path():
-    use_window(new_home(), PV_PLUGIN_PATH=os.path.dirname(PLUGIN))
+    use_window(new_home(), PV_PLUGIN_PATH=os.path.dirname(PLUGINS[0]))
 
 
 def loaded_plugin_then_automatically():
     """Load New, then Auto Load in the same settings."""
-    home = new_home()
-    use_window(home, LOAD_NEW)
+    home, (plugin,) = new_home(), PLUGINS
+    use_window(home, [event(WINDOW + "menubar/menuTools", "activate", "actionManage_Plugins"),
+                      event(MANAGER + "splitter/localGroup/loadLocal", "activate"),
+                      event(MANAGER + "pqFileDialog", "filesSelected", plugin),
+                      event(MANAGER + "buttonBox/1QPushButton0", "activate")])
     settings = (home / SETTINGS).read_text()
-    own = f'filename=\\"{PLUGIN}\\" auto_load=\\"'
+    own = f'filename=\\"{plugin}\\" auto_load=\\"'
     check(settings.count(own + "0") == 1, "the settings list the plugin")
     (home / SETTINGS).write_text(settings.replace(own + "0", own + "1"))
     use_window(home)
 
 
-run(plugin_of_the_search_path, loaded_plugin_then_automatically)
+run(*([plugin_of_the_search_path, loaded_plugin_then_automatically] if PLUGINS else [plugin_of_a_configuration_file]))
