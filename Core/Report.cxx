@@ -5,6 +5,7 @@
 #include "Core/IsosurfaceExtractor.h"
 
 #include <algorithm>
+#include <functional>
 #include <iomanip>
 #include <iterator>
 #include <limits>
@@ -288,6 +289,24 @@ void Report::countSurface(std::size_t isovalue, const ExtractedIsosurface& surfa
   {
     this->unprojectedPoints += isHere(i) && !fits[i].order ? 1 : 0;
   }
+}
+
+void Report::add(const Report& other)
+{
+  std::transform(this->points.begin(), this->points.end(), other.points.begin(),
+    this->points.begin(), std::plus<>());
+  for (std::uint64_t Report::* const count :
+    { &Report::unprojectedPoints, &Report::innerCorners, &Report::cornersApart,
+      &Report::droppedInGaps, &Report::samples, &Report::notFinite, &Report::excluded,
+      &Report::withoutArray })
+  {
+    this->*count += other.*count;
+  }
+  this->array = this->array.empty() ? other.array : this->array;
+  this->replacedArrays.insert(other.replacedArrays.begin(), other.replacedArrays.end());
+  this->least = std::min(this->least, other.least);
+  this->greatest = std::max(this->greatest, other.greatest);
+  this->contoursBlocks = true;
 }
 
 void Report::share(ProcessGroup& processes)

@@ -81,6 +81,9 @@ struct Report
   /// Counts the surface of an isovalue, by index, without points of other ranks.
   void countSurface(std::size_t isovalue, const ExtractedIsosurface& surface);
 
+  /// Adds the counts of another block, with the same isovalues and options, contoured separately.
+  void add(const Report& other);
+
   /// Adds the counts of other ranks. Collective.
   /// @throws std::bad_alloc or FailedElsewhere
   void share(ProcessGroup& processes);

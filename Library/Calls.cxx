@@ -159,6 +159,17 @@ isopoint::Options optionsFrom(const isopoint_options* given)
 }
 
 /// @param threads maximum number, or 0 for all cores
+/// @throws UsageError if it is negative
+void checkThreads(std::int32_t threads)
+{
+  if (threads < 0)
+  {
+    throw UsageError("The number of threads is " + std::to_string(threads) +
+                     ". Pass 0, for all cores, or a number above.");
+  }
+}
+
+/// @param threads maximum number, or 0 for all cores
 isopoint::Execution executionOnThreads(std::int32_t threads)
 {
   isopoint::Execution execution;
@@ -172,22 +183,18 @@ isopoint::Execution executionOnThreads(std::int32_t threads)
   return execution;
 }
 
-} // namespace
-
-struct isopoint_extractor
+/// What a program passes to isopoint_set_callbacks().
+struct Callbacks
 {
-  isopoint::IsosurfaceExtractor Extractor;
-  isopoint::SampleTypes Types;
-  isopoint::CloudCounts Counts;
-  bool HasSamples = false;  // even if all are skipped
-  std::int32_t Threads = 0; // 0: all cores
   void (*Progress)(void* user, double fraction) = nullptr;
   int (*Cancels)(void* user) = nullptr;
   void* User = nullptr;
 
-  isopoint::Execution makeExecution() const
+  void addTo(isopoint::Execution& execution) const
   {
-    isopoint::Execution execution = executionOnThreads(this->Threads);
+    const isopoint::Execution none;
+    execution.progress = none.progress;
+    execution.aborted = none.aborted;
     if (this->Progress)
     {
       execution.progress = [call = this->Progress, user = this->User](double fraction)
@@ -197,6 +204,37 @@ struct isopoint_extractor
     {
       execution.aborted = [call = this->Cancels, user = this->User]() { return call(user) != 0; };
     }
+  }
+};
+
+/// @param report with the counts of all clouds
+std::vector<isopoint::Message> describe(const isopoint::Report& report)
+{
+  std::vector<isopoint::Message> messages = isopoint::describeReport(report, memberName);
+  if (messages.empty() && report.samples == report.skippedCount())
+  {
+    messages.push_back(
+      { "no samples", "No isosurface: no sample takes part. Pass samples that are not excluded." });
+  }
+  return messages;
+}
+
+} // namespace
+
+struct isopoint_extractor
+{
+  isopoint::IsosurfaceExtractor Extractor;
+  isopoint::SampleTypes Types;
+  isopoint::CloudCounts Counts;
+  std::string Name;         // of the values
+  bool HasSamples = false;  // even if all are skipped
+  std::int32_t Threads = 0; // 0: all cores
+  Callbacks Calls;
+
+  isopoint::Execution makeExecution() const
+  {
+    isopoint::Execution execution = executionOnThreads(this->Threads);
+    this->Calls.addTo(execution);
     return execution;
   }
 };
@@ -241,11 +279,7 @@ isopoint_status isopoint_set_threads(isopoint_extractor* extractor, int32_t thre
   return runOn(extractor, "extractor",
     [&]()
     {
-      if (threads < 0)
-      {
-        throw UsageError("The number of threads is " + std::to_string(threads) +
-                         ". Pass 0, for all cores, or a number above.");
-      }
+      checkThreads(threads);
       extractor->Threads = threads;
     });
 }
@@ -253,13 +287,12 @@ isopoint_status isopoint_set_threads(isopoint_extractor* extractor, int32_t thre
 isopoint_status isopoint_set_callbacks(isopoint_extractor* extractor,
   void (*progress)(void* user, double fraction), int (*cancels)(void* user), void* user)
 {
-  return runOn(extractor, "extractor",
-    [&]()
-    {
-      extractor->Progress = progress;
-      extractor->Cancels = cancels;
-      extractor->User = user;
-    });
+  return runOn(extractor, "extractor", [&]() { extractor->Calls = { progress, cancels, user }; });
+}
+
+isopoint_status isopoint_set_name(isopoint_extractor* extractor, const char* name)
+{
+  return runOn(extractor, "extractor", [&]() { extractor->Name = name ? name : ""; });
 }
 
 isopoint_status isopoint_set_samples(isopoint_extractor* extractor, const isopoint_array* positions,
@@ -329,6 +362,7 @@ isopoint_status isopoint_extract(isopoint_extractor* extractor, const double* is
       const isopoint::Options chosen = optionsFrom(options);
       isopoint::Report report(
         chosen, isopoint::sortedIsovalues(std::vector<double>(isovalues, isovalues + count)));
+      report.array = extractor->Name;
       report.excludedAs = "excluded";
       report.countSamples(extractor->Extractor, extractor->Counts);
       const isopoint::Execution execution = extractor->makeExecution();
@@ -337,12 +371,7 @@ isopoint_status isopoint_extract(isopoint_extractor* extractor, const double* is
       auto made = std::make_unique<isopoint_surface>(execution, std::move(parts), chosen,
         extractor->Types.areFloatPositions, report,
         static_cast<std::size_t>(extractor->Counts.items));
-      made->messages = isopoint::describeReport(report, memberName);
-      if (made->messages.empty() && extractor->Extractor.sampleCount() == 0)
-      {
-        made->messages.push_back({ "no samples",
-          "No isosurface: no sample takes part. Pass samples that are not excluded." });
-      }
+      made->messages = describe(report);
       execution.progress(1.0);
       *surface = made.release();
     });
@@ -353,19 +382,72 @@ void isopoint_destroy_surface(isopoint_surface* surface)
   delete surface;
 }
 
+isopoint_status isopoint_set_surface_threads(isopoint_surface* surface, int32_t threads)
+{
+  return runOn(surface, "surface",
+    [&]()
+    {
+      checkThreads(threads);
+      const isopoint::Execution chosen = executionOnThreads(threads);
+      surface->execution.parallelFor = chosen.parallelFor;
+      surface->execution.threads = chosen.threads;
+    });
+}
+
+isopoint_status isopoint_set_surface_callbacks(isopoint_surface* surface,
+  void (*progress)(void* user, double fraction), int (*cancels)(void* user), void* user)
+{
+  return runOn(surface, "surface",
+    [&]() {
+      Callbacks{ progress, cancels, user }.addTo(surface->execution);
+    });
+}
+
+namespace
+{
+
+/// The message of this index, or null.
+const isopoint::Message* messageAt(const isopoint_surface* surface, std::int64_t index)
+{
+  const bool isThere =
+    surface && index >= 0 && static_cast<std::size_t>(index) < surface->messages.size();
+  return isThere ? &surface->messages[static_cast<std::size_t>(index)] : nullptr;
+}
+
+} // namespace
+
 const char* isopoint_get_message(
   const isopoint_surface* surface, int64_t index, int32_t* is_warning)
 {
-  if (!surface || index < 0 || static_cast<std::size_t>(index) >= surface->messages.size())
+  const isopoint::Message* const message = messageAt(surface, index);
+  if (message && is_warning)
   {
-    return nullptr;
+    *is_warning = message->kind == isopoint::Message::Warning ? 1 : 0;
   }
-  const isopoint::Message& message = surface->messages[static_cast<std::size_t>(index)];
-  if (is_warning)
-  {
-    *is_warning = message.kind == isopoint::Message::Warning ? 1 : 0;
-  }
-  return message.text.c_str();
+  return message ? message->text.c_str() : nullptr;
+}
+
+const char* isopoint_get_message_cause(const isopoint_surface* surface, int64_t index)
+{
+  const isopoint::Message* const message = messageAt(surface, index);
+  return message ? message->cause.c_str() : nullptr;
+}
+
+isopoint_status isopoint_join_messages(isopoint_surface* surface, const isopoint_surface* other)
+{
+  return runOn(surface, "surface",
+    [&]()
+    {
+      require(other, "other surface");
+      if (surface->report.isovalues != other->report.isovalues)
+      {
+        throw UsageError("The surfaces have different isovalues. Extract them at the same.");
+      }
+      isopoint::Report joined = surface->report;
+      joined.add(other->report);
+      surface->messages = describe(joined);
+      surface->report = std::move(joined);
+    });
 }
 
 int64_t isopoint_get_unprojected_count(const isopoint_surface* surface)

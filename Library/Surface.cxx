@@ -99,16 +99,16 @@ void requireMemory(const void* result, std::size_t tuples)
 
 } // namespace
 
-isopoint_surface::isopoint_surface(const isopoint::Execution& execution,
+isopoint_surface::isopoint_surface(const isopoint::Execution& making,
   std::vector<isopoint::ExtractedIsosurface> surfaces, const isopoint::Options& options,
   bool areFloatPositions, const isopoint::Report& counts, std::size_t samples)
-  : report(counts)
-  , Exec(execution)
+  : execution(making)
+  , report(counts)
   , SampleCount(samples)
   , Parts(std::move(surfaces))
   , Points(makeCoordinates(isopoint::isSinglePrecision(options, areFloatPositions),
       isopoint::countIsopoints(this->Parts)))
-  , Splats(execution, isopoint::buildSplatMesh({}, 0, {}), this->hasFloatPoints())
+  , Splats(making, isopoint::buildSplatMesh({}, 0, {}), this->hasFloatPoints())
 {
   const std::size_t count = isopoint::countIsopoints(this->Parts);
   this->Isovalues.resize(count);
@@ -153,16 +153,15 @@ isopoint_surface::isopoint_surface(const isopoint::Execution& execution,
   }
 }
 
-isopoint_surface::isopoint_surface(const isopoint::Execution& execution,
-  const isopoint_array* points, const isopoint_array* normals, const isopoint_array* axes,
-  const isopoint_array* polygons)
-  : Exec(execution)
+isopoint_surface::isopoint_surface(const isopoint::Execution& making, const isopoint_array* points,
+  const isopoint_array* normals, const isopoint_array* axes, const isopoint_array* polygons)
+  : execution(making)
   , Points(coordinatesOf(points))
   , Normals(numbersOf<float>(normals, "the normals", this->pointCount(), 3))
   , SplatAxes(numbersOf<float>(axes, "the splat axes", this->pointCount(), 3))
   , SplatPolygons(numbersOf<float>(
       polygons, "the splat polygons", this->pointCount(), isopoint::numbersOfSplat))
-  , Splats(execution, isopoint::buildSplatMesh({}, 0, {}), this->hasFloatPoints())
+  , Splats(making, isopoint::buildSplatMesh({}, 0, {}), this->hasFloatPoints())
 {
 }
 
@@ -212,7 +211,7 @@ void isopoint_surface::interpolate(const isopoint_array* ofSamples, void* result
       for (const isopoint::ExtractedIsosurface& part : this->Parts)
       {
         isopoint::interpolateComponents(
-          this->Exec, part.surface, reader.components(),
+          this->execution, part.surface, reader.components(),
           [&](std::uint64_t sample, int component) {
             return static_cast<double>(reader.at<T>(static_cast<std::size_t>(sample), component));
           },
@@ -258,11 +257,11 @@ void isopoint_surface::makeSplatMesh(double scale)
     return isopoint::fanOf(position, isopoint::unitNormal(vectorAt(this->Normals)),
       vectorAt(this->SplatAxes), numbers, scale, error);
   };
-  const isopoint::Execution making = isopoint::partOf(this->Exec, 0.0, 0.9);
-  this->Splats =
-    SplatArrays(this->Exec, isopoint::buildSplatMesh(making, this->pointCount(), fanAt), areFloat);
+  const isopoint::Execution making = isopoint::partOf(this->execution, 0.0, 0.9);
+  this->Splats = SplatArrays(
+    this->execution, isopoint::buildSplatMesh(making, this->pointCount(), fanAt), areFloat);
   this->HasSplatMesh = true;
-  this->Exec.progress(1.0);
+  this->execution.progress(1.0);
 }
 
 isopoint_surface::SplatArrays::SplatArrays(
@@ -317,7 +316,7 @@ void isopoint_surface::averageAtSplatVertices(const isopoint_array* ofPoints, vo
   {
     using T = decltype(type);
     isopoint::meansAtVertices(
-      this->Exec, this->Splats.mesh, static_cast<std::size_t>(reader.components()),
+      this->execution, this->Splats.mesh, static_cast<std::size_t>(reader.components()),
       [&](std::size_t point, std::size_t i)
       { return static_cast<double>(reader.at<T>(point, static_cast<int>(i))); },
       static_cast<T*>(result));

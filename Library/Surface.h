@@ -22,12 +22,12 @@ struct isopoint_surface
   /// @param surfaces of all isovalues
   /// @param options effective options
   /// @throws std::bad_alloc
-  isopoint_surface(const isopoint::Execution& execution,
+  isopoint_surface(const isopoint::Execution& making,
     std::vector<isopoint::ExtractedIsosurface> surfaces, const isopoint::Options& options,
     bool areFloatPositions, const isopoint::Report& report, std::size_t samples);
 
   /// See isopoint_create_surface(). @throws isopoint::UsageError, std::bad_alloc
-  isopoint_surface(const isopoint::Execution& execution, const isopoint_array* points,
+  isopoint_surface(const isopoint::Execution& making, const isopoint_array* points,
     const isopoint_array* normals, const isopoint_array* axes, const isopoint_array* polygons);
 
   /// See isopoint_get_array(). @throws isopoint::UsageError, std::bad_alloc
@@ -42,6 +42,7 @@ struct isopoint_surface
   /// See isopoint_average_at_splat_vertices(). @throws as interpolate()
   void averageAtSplatVertices(const isopoint_array* ofPoints, void* result) const;
 
+  isopoint::Execution execution; // of all calls on this surface
   std::vector<isopoint::Message> messages;
   isopoint::Report report;
 
@@ -60,7 +61,6 @@ private:
     std::vector<std::int64_t> triangles;
   };
 
-  isopoint::Execution Exec;
   std::size_t SampleCount = 0;                      // including skipped ones
   std::vector<isopoint::ExtractedIsosurface> Parts; // edges and coincident samples of each isovalue
   Coordinates Points;

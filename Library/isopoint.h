@@ -177,13 +177,18 @@ ISOPOINT_API const char* isopoint_get_error(void);
 ISOPOINT_API isopoint_status isopoint_set_threads(isopoint_extractor* extractor, int32_t threads);
 
 /* Sets callbacks, or removes them with null, the default. They run on the thread of the call and
- * must not use its extractor or surface. They apply to isopoint_set_samples(), isopoint_extract()
- * and isopoint_make_splat_mesh() of surfaces extracted afterwards; `user` must outlive these.
+ * must not use its extractor or surface. They apply to isopoint_set_samples() and isopoint_extract().
+ * Surfaces extracted afterwards use them too, until isopoint_set_surface_callbacks() replaces them;
+ * `user` must outlive these.
  * @param progress(user, fraction) the share of the call that is done, 0 to 1, ascending
  * @param cancels(user) called every few tens of milliseconds; nonzero ends the call, which returns
  * ISOPOINT_CANCELED and leaves the extractor usable */
 ISOPOINT_API isopoint_status isopoint_set_callbacks(isopoint_extractor* extractor,
   void (*progress)(void* user, double fraction), int (*cancels)(void* user), void* user);
+
+/* Sets the name of the values, such as "temperature", for messages and their causes. It is copied.
+ * @param name null or "", the default: messages say "the array" */
+ISOPOINT_API isopoint_status isopoint_set_name(isopoint_extractor* extractor, const char* name);
 
 /* Loads samples, which replace all former ones. Arrays are read only during the call. If positions,
  * types and skipped samples are the same as before, the tree is kept and only values are replaced:
@@ -207,7 +212,8 @@ ISOPOINT_API int64_t isopoint_get_skipped_count(const isopoint_extractor* extrac
 ISOPOINT_API void isopoint_get_value_range(const isopoint_extractor* extractor, double range[2]);
 
 /* -------------------------------------------------------------------------------- */
-/* Surfaces. Their calls use the threads and callbacks that the extractor had when it made them. */
+/* Surfaces. Their calls use the threads and callbacks that the extractor had when it made them,
+ * unless isopoint_set_surface_threads() or isopoint_set_surface_callbacks() replace these. */
 
 /* Extracts isosurfaces: for each distinct isovalue, ascending, the points where edges between
  * neighboring samples cross it. The first extraction takes O(n) to build the levels of the tree
@@ -223,12 +229,35 @@ ISOPOINT_API isopoint_status isopoint_extract(isopoint_extractor* extractor,
 /* Frees a surface and its arrays. Null is ignored. */
 ISOPOINT_API void isopoint_destroy_surface(isopoint_surface* surface);
 
+/* Sets the maximum number of threads of calls on a surface, as isopoint_set_threads() does. */
+ISOPOINT_API isopoint_status isopoint_set_surface_threads(
+  isopoint_surface* surface, int32_t threads);
+
+/* Sets the callbacks of isopoint_make_splat_mesh(), or removes them with null; then the surface no
+ * longer refers to those of its extractor. See isopoint_set_callbacks(). */
+ISOPOINT_API isopoint_status isopoint_set_surface_callbacks(isopoint_surface* surface,
+  void (*progress)(void* user, double fraction), int (*cancels)(void* user), void* user);
+
 /* A message for the user about a result, such as skipped samples or an isovalue without a surface:
  * a sentence, and the remedy. Null if there is no message of this index.
  * @param index from 0
  * @param is_warning null, or receives 1 if the result is not what was requested, otherwise 0 */
 ISOPOINT_API const char* isopoint_get_message(
   const isopoint_surface* surface, int64_t index, int32_t* is_warning);
+
+/* A key of the cause of the message of this index, or null if there is none. The key stays the same
+ * in later extractions while the cause lasts, even if figures in the message change: programs that
+ * extract time steps can show each message once. It is not for display and may change with the
+ * version. */
+ISOPOINT_API const char* isopoint_get_message_cause(
+  const isopoint_surface* surface, int64_t index);
+
+/* Adds the counts of another surface to those of a surface, whose messages are then about both: for
+ * blocks of one data set that are contoured separately. An isovalue without points in one of them
+ * causes no message if the other one has some.
+ * @param other extracted with the same isovalues and options */
+ISOPOINT_API isopoint_status isopoint_join_messages(
+  isopoint_surface* surface, const isopoint_surface* other);
 
 /* The number of points that no fit moved; all points without a projection. */
 ISOPOINT_API int64_t isopoint_get_unprojected_count(const isopoint_surface* surface);
@@ -278,7 +307,9 @@ ISOPOINT_API isopoint_status isopoint_interpolate(
   const isopoint_surface* surface, const isopoint_array* of_samples, void* result);
 
 /* Makes a surface from points with splats of an earlier surface, for example from a file, or a
- * subset of them, to make a splat mesh. It only has these arrays, and runs on all cores. O(n)
+ * subset of them, to make a splat mesh. It only has these arrays. Its calls run on all cores and
+ * without callbacks, unless isopoint_set_surface_threads() and isopoint_set_surface_callbacks() set
+ * others. O(n)
  * @param points three float or double
  * @param normals, axes, polygons one tuple per point, with types and components as their arrays
  * @param surface receives a surface, to be freed by isopoint_destroy_surface() */

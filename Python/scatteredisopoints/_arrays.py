@@ -75,11 +75,23 @@ def positions_of(array: Any) -> np.ndarray:
     return result if result.dtype.kind == "f" else result.astype(np.float64)
 
 
-def values_of(array: Any, count: int) -> np.ndarray:
-    """Values with shape (count,)."""
+def values_of(array: Any, count: int) -> tuple[np.ndarray, Optional[np.ndarray]]:
+    """Values with shape (count,), and which of them are masked; None if none is. They keep their type, since
+    integers count as rounded."""
     if array is None:
         raise TypeError("values are missing: one for each position")
-    return column("values", array, count, one_component=True)
+    masked = None
+    if isinstance(array, np.ma.MaskedArray):
+        masked = column("values", np.ma.getmaskarray(array), count, one_component=True).view(bool)
+        array = array.data
+    return (column("values", array, count, one_component=True),
+            masked if masked is not None and masked.any() else None)
+
+
+def describe_masked(masked: np.ndarray) -> str:
+    """A message about values that are masked."""
+    return (f"{np.count_nonzero(masked)} of {len(masked)} values are masked: their samples are left out. The"
+            " surface there is that of the samples around.")
 
 
 def column(name: str, array: Any, count: int, one_component: bool = False) -> np.ndarray:

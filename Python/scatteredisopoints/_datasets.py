@@ -14,11 +14,12 @@ import numpy as np
 
 from ._arrays import (
     CELL, FLOAT, POINT, as_numpy, column, module_of, package_of, positions_of, readable, values_of)
-from ._ghosts import excluded_cells, excluded_points
+from ._ghosts import excluded_cells, excluded_points, ghosts_of
+from ._library import Message
 from ._polydata import PolyDataMaker
 
 # As in vtkDataSetAttributes::AttributeTypes.
-GLOBAL_IDS, PEDIGREE_IDS = 5, 6
+SCALARS, GLOBAL_IDS, PEDIGREE_IDS = 0, 5, 6
 
 
 @dataclass
@@ -32,6 +33,9 @@ class DataSamples:
     arrays: Optional[dict[str, Any]]  # None: the caller passes arrays for each isosurface
     maker: PolyDataMaker
     without_array: int = 0  # points or cells of blocks without the array
+    masked: Optional[np.ndarray] = None  # bool: which values are masked; None without any
+    name: str = ""  # of the values, for messages
+    are_float: bool = True  # whether the values of all blocks are float32, and isovalues in the output too
 
 
 def data_object(source: Any) -> Any:
@@ -72,32 +76,40 @@ def leaves(data: Any) -> Iterator[Any]:
 
 
 def state_of(data: Any) -> tuple:
-    """A value that changes when VTK notices a change of the data object."""
+    """A value that changes when VTK notices a change of the data object, and when points or cells are blanked."""
     state = []
     for leaf in leaves(data):
         times = [leaf.GetMTime()]
+        if leaf.IsA("vtkDataSet"):  # blanking changes flags in place
+            marks = (ghosts_of(leaf, association) for association in (POINT, CELL))
+            times += [hash(each.tobytes()) for each in marks if each is not None]
         if leaf.IsA("vtkRectilinearGrid"):
             times += [axis.GetMTime() for axis in _coordinates(leaf)]
         state.append((leaf.__this__, *times))
     return tuple(state)
 
 
-def samples_of(source: Any, values: Any, prefers_cells: bool = False) -> DataSamples:
+def samples_of(
+    source: Any, values: Any, associations: Optional[tuple[int, ...]] = None, attribute: int = SCALARS
+) -> DataSamples:
     """The samples of an array of positions, or of a data object.
 
     Parameters
     ----------
     values
         One number per position. Of a data object: the name of a point or cell array, one number per point
-        or cell of a data set, or None for the active scalars of the points.
-    prefers_cells
-        Whether a name refers to the cell array if there are both.
+        or cell of a data set, or None for the active array.
+    associations
+        POINT, CELL or both: where an array is looked for, in this order. None: a name at both, the active
+        array at the points.
+    attribute
+        Which array is active, as in vtkDataSetAttributes::AttributeTypes.
     """
     data = data_object(source)
     if data is None:
         positions = positions_of(source)
-        return DataSamples(positions, values_of(values, len(positions)), None, None,
-                           PolyDataMaker(scalars="values"))
+        numbers, masked = values_of(values, len(positions))
+        return DataSamples(positions, numbers, None, None, PolyDataMaker(scalars="values"), masked=masked)
     if not (data.IsA("vtkDataSet") or data.IsA("vtkCompositeDataSet")):
         remedy = ("convert it to points first" if data.IsA("vtkTable") else
                   "apply vtkHyperTreeGridCellCenters first" if data.IsA("vtkHyperTreeGrid") else
@@ -106,20 +118,26 @@ def samples_of(source: Any, values: Any, prefers_cells: bool = False) -> DataSam
     are_given = not (values is None or isinstance(values, str))
     if are_given and not data.IsA("vtkDataSet"):
         raise _needs_name(data)
-    associations = (CELL, POINT) if prefers_cells else (POINT, CELL)
+    if associations is None:
+        associations = (POINT,) if values is None else (POINT, CELL)
     blocks, lacking, without_array = [], None, 0
     for leaf in leaves(data):
         size = max(leaf.GetNumberOfPoints(), leaf.GetNumberOfCells()) if leaf.IsA("vtkDataSet") else 0
         if size == 0:
             continue
-        found = given_values(data, values) if are_given else _find(leaf, values, associations)
+        if are_given:
+            association, numbers, masked = given_values(data, values)
+            blocks.append(_block(leaf, association, numbers))
+            blocks[-1].masked = masked
+            continue
+        found = _find(leaf, values, associations, attribute)
         if found is not None:
             blocks.append(_block(leaf, *found))
         else:
             without_array += size
             lacking = leaf if lacking is None else lacking
     if not blocks:
-        raise _no_samples(values, lacking)
+        raise _no_samples(values, associations, lacking, without_array)
     samples = blocks[0] if len(blocks) == 1 else _joined(blocks)
     samples.without_array = without_array
     samples.maker.scalars = samples.maker.scalars or "values"
@@ -133,43 +151,68 @@ def _needs_name(data: Any) -> TypeError:
     return TypeError(f"values of a {data.GetClassName()} have to be one of its arrays: give its name")
 
 
-def given_values(data: Any, values: Any) -> tuple[int, np.ndarray]:
-    """Values that are given as an array, with shape (n,), and whether they are of points or of cells."""
+def given_values(data: Any, values: Any) -> tuple[int, np.ndarray, Optional[np.ndarray]]:
+    """Whether values that are given as an array are of points or of cells; and what values_of() returns."""
     if not hasattr(data, "GetCellData"):
         raise _needs_name(data)
-    numbers = readable("values", values)
+    shape = np.shape(values)
     points, cells = (data.GetNumberOfElements(association) for association in (POINT, CELL))
-    if numbers.ndim == 1 and len(numbers) not in (points, cells):
-        raise ValueError(f"{len(numbers)} values for a data set of {points} points and {cells} cells: there"
+    if len(shape) == 1 and shape[0] not in (points, cells):
+        raise ValueError(f"{shape[0]} values for a data set of {points} points and {cells} cells: there"
                          " is to be one for each")
-    is_of_cells = numbers.shape[:1] == (cells,) and cells != points
-    return int(is_of_cells), column("values", numbers, cells if is_of_cells else points, one_component=True)
+    is_of_cells = shape[:1] == (cells,) and cells != points
+    return (int(is_of_cells), *values_of(values, cells if is_of_cells else points))
 
 
-def _find(leaf: Any, name: Optional[str], associations: tuple[int, int]) -> Optional[tuple[int, Any]]:
-    """The array of this name, or the active scalars of the points, and its association."""
-    if name is None:
-        scalars = leaf.GetPointData().GetScalars()
-        return None if scalars is None else (POINT, scalars)
-    found = ((each, leaf.GetAttributes(each).GetAbstractArray(name)) for each in associations)
-    return next((pair for pair in found if pair[1] is not None), None)
+def _find(leaf: Any, name: Optional[str], associations: tuple[int, ...], attribute: int
+          ) -> Optional[tuple[int, Any]]:
+    """The array of this name, or the active one, and its association."""
+    for association in associations:
+        attributes = leaf.GetAttributes(association)
+        array = (attributes.GetAbstractAttribute(attribute) if name is None else
+                 attributes.GetAbstractArray(name))
+        if array is not None:
+            return association, array
+    return None
 
 
 class NoSamplesError(ValueError):
     """A data object has no points, no cells or no array of values."""
 
+    def __init__(self, text: str = "The input has no points or cells. Give a data set with a scalar array.",
+                 without_array: int = 0):
+        super().__init__(text)
+        self.without_array = without_array  # points or cells
 
-def _no_samples(name: Optional[str], leaf: Any) -> NoSamplesError:
+
+def describe_without_array(count: int, name: str) -> Message:
+    """A message about points or cells of blocks."""
+    return Message(f"{count} points or cells are left out: their blocks do not have the array.",
+                   is_warning=False, cause=f"blocks without {name}")
+
+
+def _no_samples(
+    name: Optional[str], associations: tuple[int, ...], leaf: Any, without_array: int
+) -> NoSamplesError:
     if leaf is None:
-        return NoSamplesError("The input has no points or cells. Give a data set with a scalar array.")
+        return NoSamplesError()
+
+    elements = " or ".join(("point", "cell")[association] for association in sorted(associations))
+    wanted = f"active {elements} scalars" if name is None else f'{elements} array named "{name}"'
+    return NoSamplesError(f"The input has no {wanted}. {_choice_of(leaf)}", without_array)
+
+
+def _choice_of(leaf: Any) -> str:
+    """The remedy for a wrong array: lists those of a data set."""
 
     def names(attributes: Any) -> str:
         found = (attributes.GetArrayName(i) for i in range(attributes.GetNumberOfArrays()))
         return ", ".join(each or "(unnamed)" for each in found if each != "vtkGhostType") or "none"
 
-    wanted = "active point scalars" if name is None else f'point or cell array named "{name}"'
-    return NoSamplesError(f"The input has no {wanted}. The point arrays are: {names(leaf.GetPointData())};"
-                          f" the cell arrays are: {names(leaf.GetCellData())}.")
+    of_points, of_cells = names(leaf.GetPointData()), names(leaf.GetCellData())
+    if of_points == of_cells == "none":
+        return "There are no arrays: load point or cell arrays in the reader."
+    return f"Choose a scalar array; the point arrays are: {of_points}; the cell arrays are: {of_cells}."
 
 
 def _block(leaf: Any, association: int, scalars: Any) -> DataSamples:
@@ -177,13 +220,13 @@ def _block(leaf: Any, association: int, scalars: Any) -> DataSamples:
     if not isinstance(scalars, np.ndarray):
         name = scalars.GetName() or ""
         if not hasattr(scalars, "GetDataTypeSize") or not scalars.IsA("vtkDataArray"):
-            raise TypeError(f'The array "{name}" holds no numbers.')
+            raise TypeError(f'The array "{name}" holds no numbers. {_choice_of(leaf)}')
         if scalars.GetNumberOfComponents() != 1:
             raise ValueError(f'The array "{name}" has {scalars.GetNumberOfComponents()} components,'
                              " but a scalar array has one. Compute a component or the magnitude first.")
         if scalars.GetNumberOfTuples() != count:
             raise ValueError(f'The array "{name}" has {scalars.GetNumberOfTuples()} values for {count}'
-                             f" {'cells' if association == CELL else 'points'}.")
+                             f" {'cells' if association == CELL else 'points'}. {_choice_of(leaf)}")
     if association == CELL:
         positions, excluded = _cell_centers(leaf), excluded_cells(leaf)
     else:
@@ -195,7 +238,8 @@ def _block(leaf: Any, association: int, scalars: Any) -> DataSamples:
             if use >= 0:
                 uses[key] = use
     maker = PolyDataMaker(scalars=name or None, uses=uses)
-    return DataSamples(positions, as_numpy(scalars), excluded, arrays, maker)
+    return DataSamples(positions, as_numpy(scalars), excluded, arrays, maker,
+                       name="" if isinstance(scalars, np.ndarray) else name)
 
 
 def named_arrays(attributes: Any) -> Iterator[tuple[str, Any, int]]:
@@ -208,7 +252,7 @@ def named_arrays(attributes: Any) -> Iterator[tuple[str, Any, int]]:
 
 def _joined(blocks: list[DataSamples]) -> DataSamples:
     """The samples of all blocks, with the arrays that all have."""
-    positions = [as_numpy(block.positions) for block in blocks]
+    positions = [positions_of(as_numpy(block.positions)) for block in blocks]
     first, *others = [{key: as_numpy(array) for key, array in (block.arrays or {}).items()}
                       for block in blocks]
     arrays = {key: np.concatenate([array, *(other[key] for other in others)])
@@ -217,16 +261,17 @@ def _joined(blocks: list[DataSamples]) -> DataSamples:
                      and other[key].shape[1:] == array.shape[1:] for other in others)}
     uses = {key: use for key, use in blocks[0].maker.uses.items()
             if key in arrays and all(block.maker.uses.get(key) == use for block in blocks)}
-    names = (block.maker.scalars for block in blocks)
+    name = next(filter(None, (block.name for block in blocks)), "")
     excluded = [np.zeros(len(place), bool) if block.excluded is None else block.excluded
                 for block, place in zip(blocks, positions)]
     return DataSamples(np.concatenate(positions), np.concatenate([block.values for block in blocks]),
                        np.concatenate(excluded), arrays,
-                       PolyDataMaker(scalars=next(filter(None, names), None), uses=uses))
+                       PolyDataMaker(scalars=name or None, uses=uses), name=name,
+                       are_float=all(block.values.dtype == np.float32 for block in blocks))
 
 
 def point_positions(leaf: Any) -> Any:
-    """The points of a data set, with shape (n, 3): VTK's array of a point set, or NumPy's."""
+    """The points of a data set, with shape (n, 3): VTK's array of a point set, of any type, or NumPy's."""
     if leaf.IsA("vtkImageData"):
         return _image_positions(leaf, [np.arange(low, high + 1.0) for low, high in _extent(leaf)])
     if leaf.IsA("vtkRectilinearGrid"):

@@ -11,11 +11,13 @@ import threading
 import warnings
 from typing import Any, Mapping, Optional
 
+import numpy as np
 from vtkmodules.vtkCommonCore import VTK_STRING, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkPolyData
 
-from ._arrays import CELL, POINT, as_numpy, further_arrays, positions_of, values_of
+from ._arrays import CELL, POINT, as_numpy, describe_masked, further_arrays, positions_of, values_of
 from ._datasets import given_values, is_of_pyvista, leaves, named_arrays, point_positions
+from ._ghosts import HIDDEN_CELL, HIDDEN_POINT, ghosts_of
 from ._isosurface import Isosurface
 from ._options import constant, make_options, property_name, switch
 from ._polydata import PolyDataMaker, as_vtk
@@ -79,7 +81,9 @@ def _cloud(positions: Any, values: Any, arrays: Optional[Mapping[str, Any]]) -> 
     points.SetData(as_vtk("vtkmodules", "Points", place))
     data = vtkPolyData()
     data.SetPoints(points)
-    data.GetPointData().SetScalars(as_vtk("vtkmodules", "values", values_of(values, len(place))))
+    numbers, masked = values_of(values, len(place))
+    data.GetPointData().SetScalars(as_vtk("vtkmodules", "values", numbers))
+    _hide(data, POINT, masked)
     for name, array in further_arrays(arrays, len(place)).items():
         data.GetPointData().AddArray(as_vtk("vtkmodules", name, array))
     return data
@@ -94,13 +98,25 @@ def _set_input(isopoints: vtkScatteredContourFilter, data: vtkDataObject, values
         association = CELL if has(CELL) and not has(POINT) else POINT
         isopoints.SetInputArrayToProcess(0, 0, 0, association, values)
     elif values is not None:
-        association, numbers = given_values(data, values)
+        association, numbers, masked = given_values(data, values)
         copy = data.NewInstance()
         copy.ShallowCopy(data)
         copy.GetAttributes(association).AddArray(as_vtk("vtkmodules", "values", numbers))
+        _hide(copy, association, masked)
         data = copy
         isopoints.SetInputArrayToProcess(0, 0, 0, association, "values")
     isopoints.SetInputData(data)
+
+
+def _hide(data: vtkDataObject, association: int, masked: Optional[np.ndarray]) -> None:
+    """Marks points or cells with masked values as hidden, and warns of them."""
+    if masked is None:
+        return
+    marks = np.where(masked, HIDDEN_CELL if association == CELL else HIDDEN_POINT, 0).astype(np.uint8)
+    before = ghosts_of(data, association)
+    data.GetAttributes(association).AddArray(
+        as_vtk("vtkmodules", "vtkGhostType", marks if before is None else marks | before))
+    warnings.warn(describe_masked(masked), RuntimeWarning, stacklevel=5)
 
 
 def _update(isopoints: vtkScatteredContourFilter, report: Any) -> None:

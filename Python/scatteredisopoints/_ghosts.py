@@ -17,7 +17,7 @@ DUPLICATE_CELL, REFINED_CELL, HIDDEN_CELL = 1, 8, 32
 def excluded_points(data: Any) -> Optional[np.ndarray]:
     """Whether each point is a ghost, hidden, or only in cells that are hidden or ghosts; None if no point
     is."""
-    points, cells = _ghosts(data, POINT), _ghosts(data, CELL)
+    points, cells = ghosts_of(data, POINT), ghosts_of(data, CELL)
     excluded = np.zeros(data.GetNumberOfPoints(), bool)
     if points is not None:
         excluded |= (points & (DUPLICATE_POINT | HIDDEN_POINT)) != 0
@@ -36,7 +36,7 @@ def excluded_points(data: Any) -> Optional[np.ndarray]:
 def excluded_cells(data: Any) -> Optional[np.ndarray]:
     """Whether each cell is a ghost, hidden, covered by a finer one, with a hidden point, or without points;
     None if no cell is."""
-    points, cells = _ghosts(data, POINT), _ghosts(data, CELL)
+    points, cells = ghosts_of(data, POINT), ghosts_of(data, CELL)
     excluded = np.zeros(data.GetNumberOfCells(), bool)
     if cells is not None:
         excluded |= (cells & (DUPLICATE_CELL | REFINED_CELL | HIDDEN_CELL)) != 0
@@ -49,7 +49,8 @@ def excluded_cells(data: Any) -> Optional[np.ndarray]:
     return excluded if excluded.any() else None
 
 
-def _ghosts(data: Any, association: int) -> Optional[np.ndarray]:
+def ghosts_of(data: Any, association: int) -> Optional[np.ndarray]:
+    """The marks of ghosts of the points or cells, None without."""
     array = data.GetAttributes(association).GetArray("vtkGhostType")
     count = data.GetNumberOfElements(association)
     is_usable = (array is not None and array.IsA("vtkUnsignedCharArray")

@@ -10,6 +10,8 @@ import numpy as np
 
 from . import _library
 from ._arrays import column, readable
+from ._options import thread_count
+from ._progress import Progress, shown_progress
 
 
 class Isosurface:
@@ -36,6 +38,7 @@ class Isosurface:
         splat_shapes: Mapping[str, np.ndarray],
         make_polydata: Callable[[Isosurface], Any],
         polydata: Any = None,
+        threads: Optional[int] = None,
     ):
         self.points = points
         self.triangles = triangles
@@ -43,6 +46,7 @@ class Isosurface:
         self.splat_shapes = splat_shapes
         self._make_polydata = make_polydata
         self._polydata = polydata
+        self._threads = threads
 
     def __getstate__(self) -> dict[str, Any]:
         return {**vars(self), "_polydata": None}  # VTK's objects cannot be pickled
@@ -73,7 +77,9 @@ class Isosurface:
             self._polydata = self._make_polydata(self)
         return self._polydata
 
-    def splats(self, scale: float = 1.0) -> Isosurface:
+    def splats(
+        self, scale: float = 1.0, *, threads: Optional[int] = None, progress: Progress = None
+    ) -> Isosurface:
         """The triangles that show points as a closed, lit surface, for programs that draw meshes.
 
         Splats do not share vertices: for a connected mesh extract triangles.
@@ -82,6 +88,10 @@ class Isosurface:
         ----------
         scale
             Factor on the size of splats, greater than 0; 1 closes the surface.
+        threads
+            Maximum number of threads; None: as many as for the points. The result does not depend on it.
+        progress
+            As in :func:`contour`.
 
         Returns
         -------
@@ -91,24 +101,34 @@ class Isosurface:
         ------
         ValueError
             If there are no splats: for triangles, or if splats or normals were switched off.
+        MemoryError, KeyboardInterrupt
+            As :func:`contour` does.
         """
+        with shown_progress(progress, "Making splats") as report:
+            return self._splats(scale, threads, progress=report)
+
+    def _splats(self, scale: float = 1.0, threads: Optional[int] = None, **callbacks: Any) -> Isosurface:
+        """splats(). Callbacks are those of _library.Callbacks."""
         if not self.splat_shapes or self.normals is None:
             raise ValueError("The surface has no splats: extract points with compute_splats and"
                              " compute_normals.")
         parts = [("points", self.points), ("normals", self.normals),
                  *((name, self.splat_shapes[name]) for name in ("SplatAxis", "SplatPolygon"))]
+        threads = self._threads if threads is None else threads
         pointer = c_void_p()
-        _library.run(_library.create_surface, *(
-            _library.Array.of(readable(name, array)) for name, array in parts), byref(pointer))
-        surface = _library.Handle(pointer.value, _library.destroy_surface)
-        _library.run(_library.make_splat_mesh, surface, float(scale))
+        _library.run(_library.create_surface, *(readable(*part) for part in parts), byref(pointer))
+        surface = _library.Surface(pointer.value)
+        _library.run(_library.set_surface_threads, surface, thread_count(threads))
+        _library.run_with(
+            _library.Callbacks(**callbacks), surface, _library.make_splat_mesh, float(scale))
         point_of_vertex = _library.view(surface, _library.SPLAT_VERTEX_POINTS)
         arrays = {name: _at_vertices(surface, column(name, array, len(self)), point_of_vertex)
                   for name, array in self.arrays.items()}
         arrays["Normals"] = _library.view(surface, _library.SPLAT_VERTEX_NORMALS)
         return Isosurface(
             _library.view(surface, _library.SPLAT_VERTICES),
-            _library.view(surface, _library.SPLAT_TRIANGLES), arrays, {}, self._make_polydata)
+            _library.view(surface, _library.SPLAT_TRIANGLES), arrays, {}, self._make_polydata,
+            threads=threads)
 
     def __len__(self) -> int:
         return len(self.points)
@@ -120,11 +140,10 @@ class Isosurface:
         return f"<Isosurface: {shown}; arrays: {', '.join(self.arrays) or 'none'}>"
 
 
-def _at_vertices(surface: _library.Handle, array: np.ndarray, point_of_vertex) -> np.ndarray:
+def _at_vertices(surface: _library.Surface, array: np.ndarray, point_of_vertex) -> np.ndarray:
     """An array of points, evaluated at the vertices of their splats."""
     if array.dtype.kind != "f":
         return array[point_of_vertex]
     result = np.empty((len(point_of_vertex), *array.shape[1:]), array.dtype)
-    _library.run(_library.average_at_splat_vertices, surface, _library.Array.of(array),
-                 result.ctypes.data)
+    _library.run(_library.average_at_splat_vertices, surface, array, result)
     return result

@@ -35,12 +35,32 @@ class Array(ctypes.Structure):
 
     @classmethod
     def of(cls, numbers: np.ndarray) -> Array:
-        """Describes an array of the shape (n,) or (n, components) of readable(), which must outlive this."""
+        """Describes an array of the shape (n,) or (n, components) of readable(), and keeps it alive."""
         columns = numbers.ndim == 2
         if numbers.ndim not in (1, 2):
             raise ValueError(f"an array has the shape {numbers.shape}, not (n,) or (n, components)")
-        return cls(numbers.ctypes.data, TYPES.index(numbers.dtype), numbers.shape[1] if columns else 1,
-                   len(numbers), numbers.strides[0], numbers.strides[1] if columns else 0)
+        described = cls(numbers.ctypes.data, TYPES.index(numbers.dtype), numbers.shape[1] if columns else 1,
+                        len(numbers), numbers.strides[0], numbers.strides[1] if columns else 0)
+        described.numbers = numbers
+        return described
+
+
+class Numbers:
+    """The type of a parameter that the library reads: an array of NumPy, alive during the call, or None."""
+
+    @staticmethod
+    def from_param(numbers: Optional[np.ndarray]) -> Any:
+        return None if numbers is None else byref(Array.of(numbers))
+
+
+class Memory:
+    """The type of a parameter that the library writes: a contiguous array of NumPy, alive during the call."""
+
+    @staticmethod
+    def from_param(numbers: np.ndarray) -> Any:
+        if not (numbers.flags.c_contiguous and numbers.flags.writeable):
+            raise ValueError("the memory for a result is not contiguous, or read-only")
+        return numbers.ctypes
 
 
 class Options(ctypes.Structure):
@@ -81,33 +101,58 @@ create_extractor = _declare("create_extractor", result=c_void_p)
 destroy_extractor = _declare("destroy_extractor", c_void_p, result=None)
 set_threads = _declare("set_threads", c_void_p, c_int32)
 set_callbacks = _declare("set_callbacks", c_void_p, Progress, Cancels, c_void_p)
-set_samples = _declare("set_samples", c_void_p, POINTER(Array), POINTER(Array), POINTER(Array))
+set_name = _declare("set_name", c_void_p, c_char_p)
+set_samples = _declare("set_samples", c_void_p, Numbers, Numbers, Numbers)
 get_value_range = _declare("get_value_range", c_void_p, POINTER(2 * c_double), result=None)
 extract = _declare("extract", c_void_p, POINTER(c_double), c_int64, POINTER(Options),
                    POINTER(c_void_p))
-create_surface = _declare("create_surface", POINTER(Array), POINTER(Array), POINTER(Array),
-                          POINTER(Array), POINTER(c_void_p))
+create_surface = _declare("create_surface", Numbers, Numbers, Numbers, Numbers, POINTER(c_void_p))
 destroy_surface = _declare("destroy_surface", c_void_p, result=None)
+set_surface_threads = _declare("set_surface_threads", c_void_p, c_int32)
+set_surface_callbacks = _declare("set_surface_callbacks", c_void_p, Progress, Cancels, c_void_p)
 get_skipped_count = _declare("get_skipped_count", c_void_p, result=c_int64)
 get_unprojected_count = _declare("get_unprojected_count", c_void_p, result=c_int64)
 get_dropped_count = _declare("get_dropped_count", c_void_p, result=c_int64)
 get_message = _declare("get_message", c_void_p, c_int64, POINTER(c_int32), result=c_char_p)
+get_message_cause = _declare("get_message_cause", c_void_p, c_int64, result=c_char_p)
+join_messages = _declare("join_messages", c_void_p, c_void_p)
 get_array = _declare("get_array", c_void_p, c_int32, POINTER(Array))
-interpolate = _declare("interpolate", c_void_p, POINTER(Array), c_void_p)
+interpolate = _declare("interpolate", c_void_p, Numbers, Memory)
 make_splat_mesh = _declare("make_splat_mesh", c_void_p, c_double)
-average_at_splat_vertices = _declare(
-    "average_at_splat_vertices", c_void_p, POINTER(Array), c_void_p)
+average_at_splat_vertices = _declare("average_at_splat_vertices", c_void_p, Numbers, Memory)
 
 
 class Handle:
-    """Owns an extractor or a surface."""
+    """Owns an object of the library."""
 
-    def __init__(self, pointer: int | None, destroy: Callable[[int], None]):
+    destroy: Any
+    set_callbacks: Any
+
+    def __init__(self, pointer: int | None):
         if not pointer:
             raise MemoryError("There is no memory for a tree.")
         self._as_parameter_ = c_void_p(pointer)
-        self.callbacks: Any = None  # a surface uses those of its extractor
-        weakref.finalize(self, destroy, pointer).atexit = False
+        weakref.finalize(self, self.destroy, pointer).atexit = False
+
+    def forget_callbacks(self) -> None:
+        """Makes the library forget callbacks, which live during one call only."""
+        self.set_callbacks(self, Progress(), Cancels(), None)
+
+
+class Extractor(Handle):
+    """Owns an isopoint_extractor."""
+
+    destroy, set_callbacks = destroy_extractor, set_callbacks
+
+
+class Surface(Handle):
+    """Owns an isopoint_surface."""
+
+    destroy, set_callbacks = destroy_surface, set_surface_callbacks
+
+    def __init__(self, pointer: int | None):
+        super().__init__(pointer)
+        self.forget_callbacks()  # those of the extraction
 
 
 class Callbacks:
@@ -115,7 +160,8 @@ class Callbacks:
 
     ctypes drops exceptions of callbacks, and signal handlers, including that of Ctrl-C, may raise before
     the first line of a callback. So ctypes only calls two methods implemented in C: one of a dictionary,
-    which keeps the last fraction, and one of a generator, which waits within a try block.
+    which keeps the last fraction, and one of a generator, which waits within a try block. Only the call
+    holds these: callers, such as filters, die without the garbage collector.
     """
 
     def __init__(
@@ -127,10 +173,12 @@ class Callbacks:
         self._report, self._is_canceled = progress, is_canceled
         self._fractions: dict[Any, float] = {}  # by the callback's user pointer, which is None
         self._reported: Optional[float] = None
+
+    def functions(self) -> tuple[Any, Any]:
+        """Those that the library calls."""
         answers = self._answers()
         next(answers)
-        self.progress = Progress(self._fractions.__setitem__)
-        self.cancels = Cancels(answers.send)
+        return Progress(self._fractions.__setitem__), Cancels(answers.send)
 
     def _answers(self) -> Generator[int, Any, None]:
         answer = 0
@@ -198,15 +246,16 @@ def run(function: Any, *arguments: Any) -> None:
     _check(function(*arguments))
 
 
-def run_with(callbacks: Callbacks, extractor: Handle, function: Any, *arguments: Any) -> None:
-    """The same for a function of an extractor. Also raises exceptions of callbacks and signal handlers, and
-    InterruptedError after a cancellation."""
+def run_with(callbacks: Callbacks, handle: Handle, function: Any, *arguments: Any) -> None:
+    """The same for a function of an extractor or a surface. Also raises exceptions of callbacks and signal
+    handlers, and InterruptedError after a cancellation."""
+    progress, cancels = callbacks.functions()
     _Calls.begin()
     try:
-        run(set_callbacks, extractor, callbacks.progress, callbacks.cancels, None)
-        status = function(*arguments)
+        run(handle.set_callbacks, handle, progress, cancels, None)
+        status = function(handle, *arguments)
     finally:
-        set_callbacks(extractor, Progress(), Cancels(), None)
+        handle.forget_callbacks()
         _Calls.end()
     error, callbacks.error = callbacks.error, None
     try:
@@ -224,7 +273,7 @@ def _check(status: int) -> None:
         raise kinds.get(status, RuntimeError)(_get_error().decode())
 
 
-def view(surface: Handle, array_id: int) -> np.ndarray:
+def view(surface: Surface, array_id: int) -> np.ndarray:
     """An array of a surface as a view that keeps its memory alive."""
     array = Array()
     run(get_array, surface, array_id, byref(array))
@@ -246,11 +295,15 @@ class Message:
     is_warning: bool
     """Whether the result is not what was asked for."""
 
+    cause: str
+    """Stays the same in later extractions while the cause lasts; figures in the text change."""
 
-def messages(surface: Handle) -> list[Message]:
+
+def messages(surface: Surface) -> list[Message]:
     """All messages about a surface."""
     found: list[Message] = []
     is_warning = c_int32()
     while (text := get_message(surface, len(found), byref(is_warning))) is not None:
-        found.append(Message(text.decode(), bool(is_warning.value)))
+        cause = get_message_cause(surface, len(found))
+        found.append(Message(text.decode(), bool(is_warning.value), cause.decode()))
     return found

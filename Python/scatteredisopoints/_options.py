@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import operator
-from typing import Any, Mapping
+from typing import Any, Mapping, Optional
 
 import numpy as np
 
@@ -65,6 +65,16 @@ def make_options(triangles: bool, given: Mapping[str, Any]) -> Options:
         else:
             setattr(options, name, _number(name, constant(name, value), getattr(options, name)))
     return options
+
+
+def thread_count(threads: Optional[int]) -> int:
+    """The library's number for at most so many threads; None: all available cores. Raises ValueError for fewer
+    than one."""
+    if threads is None:
+        return 0
+    if isinstance(threads, bool) or operator.index(threads) < 1:
+        raise ValueError(f"threads are {threads}: give 1 or more, or None for all cores")
+    return min(operator.index(threads), 2**31 - 1)
 
 
 def switch(name: str, value: Any) -> bool:

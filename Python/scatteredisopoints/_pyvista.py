@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import threading
+import warnings
 import weakref
 from collections import OrderedDict
 from typing import Any, Optional, Sequence, Union
@@ -12,6 +13,7 @@ import numpy as np
 import pyvista as pv
 
 from . import _datasets
+from ._arrays import CELL, POINT
 from ._progress import Progress, shown_progress
 from ._samples import Samples
 from ._splats import polygons_of
@@ -116,7 +118,10 @@ class ScatteredAccessor:
         >>> isopoints = cloud.scattered.contour([0.3], triangles=False)  # doctest: +SKIP
         >>> isopoints.scattered.splats().plot(smooth_shading=True)  # doctest: +SKIP
         """
-        return polygons_of(self._dataset, "Radius", 0.0, scale).polydata
+        polygons, problem = polygons_of(self._dataset, "Radius", 0.0, scale)
+        if problem:
+            warnings.warn(problem, RuntimeWarning, stacklevel=2)
+        return polygons
 
     def _load(self, scalars: Any, preference: str, progress: Progress) -> Samples:
         data = self._dataset
@@ -161,7 +166,8 @@ def _kept_samples(data: Any, scalars: str, preference: str, progress: Progress) 
     if kept is not None and kept[0]() is data and kept[1] == key:
         samples = kept[2]
     else:
-        samples = _loaded(_datasets.samples_of(data, scalars, preference == "cell"), progress)
+        associations = (CELL, POINT) if preference == "cell" else (POINT, CELL)
+        samples = _loaded(_datasets.samples_of(data, scalars, associations), progress)
     with _lock:
         _kept[id_] = weakref.ref(data, lambda _: _kept.pop(id_, None)), key, samples
         while len(_kept) > MOST_KEPT:

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import contextlib
-import operator
 import threading
 import warnings
 from ctypes import byref, c_double, c_void_p
@@ -14,9 +13,10 @@ from typing import Any, Iterable, Iterator, Mapping, Optional, Union
 import numpy as np
 
 from . import _datasets, _library
-from ._arrays import as_numpy, further_arrays, isovalues_of, readable, values_of
+from ._arrays import (
+    as_numpy, describe_masked, further_arrays, isovalues_of, positions_of, readable, values_of)
 from ._isosurface import Isosurface
-from ._options import make_options
+from ._options import make_options, thread_count
 from ._progress import Progress, shown_progress
 
 
@@ -25,9 +25,14 @@ class Extracted:
     """An isosurface with its messages."""
 
     isosurface: Isosurface
-    messages: list[_library.Message]
-    unprojected: int
-    dropped: int
+    surface: _library.Surface
+    own_messages: list[_library.Message]
+    """Those that the library does not give."""
+
+    @property
+    def messages(self) -> list[_library.Message]:
+        """All messages."""
+        return _library.messages(self.surface) + self.own_messages
 
 
 class Samples:
@@ -76,11 +81,9 @@ class Samples:
     def _initialize(self, threads: Optional[int]) -> None:
         self._lock = threading.RLock()
         self._is_in_call = False
-        self._extractor = _library.Handle(_library.create_extractor(), _library.destroy_extractor)
-        if threads is not None:
-            if isinstance(threads, bool) or operator.index(threads) < 1:
-                raise ValueError(f"threads are {threads}: give 1 or more, or None for all cores")
-            _library.run(_library.set_threads, self._extractor, min(operator.index(threads), 2**31 - 1))
+        self._threads = threads
+        self._extractor = _library.Extractor(_library.create_extractor())
+        _library.run(_library.set_threads, self._extractor, thread_count(threads))
         self._range = (np.nan, np.nan)
         self._is_loaded = False
 
@@ -89,8 +92,8 @@ class Samples:
         self._positions, self._excluded = samples.positions, samples.excluded
         self._count = len(as_numpy(samples.positions))
         self._arrays, self._maker = samples.arrays, samples.maker
-        self._without_array = samples.without_array
-        self._load(readable("values", samples.values), **callbacks)
+        self._without_array, self._name = samples.without_array, samples.name
+        self._load(readable("values", samples.values), samples.masked, samples.are_float, **callbacks)
 
     def __len__(self) -> int:
         """The number of samples, including skipped ones."""
@@ -125,7 +128,7 @@ class Samples:
             As in :func:`contour`.
         """
         with shown_progress(progress, "Loading samples") as report:
-            self._load(values_of(values, len(self)), progress=report)
+            self._load(*values_of(values, len(self)), progress=report)
 
     @contextlib.contextmanager
     def _exclusive(self) -> Iterator[None]:
@@ -139,21 +142,23 @@ class Samples:
             finally:
                 self._is_in_call = False
 
-    def _load(self, values: np.ndarray, **callbacks: Any) -> None:
+    def _load(self, values: np.ndarray, masked: Optional[np.ndarray], are_float: bool = True,
+              **callbacks: Any) -> None:
         if self._count == 0:
             raise ValueError("There are no samples: the input has no points.")
-        positions = readable("positions", self._current("positions", self._positions))
-        excluded = self._excluded
+        positions = positions_of(self._current("positions", self._positions))
+        left_out = [each for each in (self._excluded, masked) if each is not None]
         with self._exclusive():
             self._is_loaded = False
+            self._masked = masked
+            _library.run(_library.set_name, self._extractor, self._name.encode(errors="replace"))
             _library.run_with(
-                _library.Callbacks(**callbacks), self._extractor, _library.set_samples, self._extractor,
-                _library.Array.of(positions), _library.Array.of(values),
-                None if excluded is None else _library.Array.of(excluded.view(np.uint8)))
+                _library.Callbacks(**callbacks), self._extractor, _library.set_samples, positions, values,
+                np.any(left_out, axis=0).view(np.uint8) if left_out else None)
             range_ = (2 * c_double)()
             _library.get_value_range(self._extractor, byref(range_))
             self._range = range_[0], range_[1]
-            self._value_type = np.float32 if values.dtype == np.float32 else np.float64
+            self._value_type = np.float32 if are_float and values.dtype == np.float32 else np.float64
             self._is_loaded = True
 
     def _current(self, name: str, array: Any) -> np.ndarray:
@@ -198,38 +203,36 @@ class Samples:
             if not self._is_loaded:
                 raise ValueError("The samples have no values, since replacing them failed or was"
                                  " interrupted: call replace_values().")
-            called = _library.Callbacks(**callbacks)
             try:
                 _library.run_with(
-                    called, self._extractor, _library.extract, self._extractor,
+                    _library.Callbacks(**callbacks), self._extractor, _library.extract,
                     (len(levels) * c_double)(*levels), len(levels), byref(chosen), byref(pointer))
             finally:
                 if pointer.value:
-                    surface = _library.Handle(pointer.value, _library.destroy_surface)
-                    surface.callbacks = called
-            value_type = self._value_type
-        messages = _library.messages(surface)
-        if self._without_array:
+                    surface = _library.Surface(pointer.value)
+            value_type, masked = self._value_type, self._masked
+        messages = []
+        if masked is not None:
             messages.append(_library.Message(
-                f"{self._without_array} points or cells are left out: their blocks do not have the"
-                " array.", is_warning=False))
+                describe_masked(masked), is_warning=False, cause="masked values"))
+        if self._without_array:
+            messages.append(_datasets.describe_without_array(self._without_array, self._name))
         found = self._interpolated(surface, of_samples)
         if options.get("compute_scalars", True):
             name = self._maker.scalars or "values"
             if name in found:
                 messages.append(_library.Message(
                     f'The isovalues replace the array "{name}" of the data set: rename that.',
-                    is_warning=True))
+                    is_warning=True, cause=f"isovalues replace {name}"))
             found[name] = _library.view(surface, _library.ISOVALUES).astype(value_type, copy=False)
         computed = _computed(surface, chosen)
         messages += [_library.Message(
             f'The computed array "{name}" replaces the input array of this name. To keep that, rename'
-            " it or switch the computed array off.", is_warning=True)
+            " it or switch the computed array off.", is_warning=True, cause=f"replaced array {name}")
             for name in computed if name in found]
         found.update(computed)
         return Extracted(
-            self._as_isosurface(surface, found, chosen), messages,
-            _library.get_unprojected_count(surface), _library.get_dropped_count(surface))
+            self._as_isosurface(surface, found, chosen), surface, messages)
 
     def _interpolated(self, surface, of_samples: Mapping[str, Any]) -> dict[str, np.ndarray]:
         edges = _library.view(surface, _library.EDGES)
@@ -241,8 +244,7 @@ class Samples:
                 continue
             array = readable(name, self._current(name, array))
             found[name] = np.empty((len(edges), *array.shape[1:]), array.dtype)
-            _library.run(_library.interpolate, surface, _library.Array.of(array),
-                         found[name].ctypes.data)
+            _library.run(_library.interpolate, surface, array, found[name])
         return found
 
     def _as_isosurface(self, surface, arrays, options: _library.Options) -> Isosurface:
@@ -253,7 +255,7 @@ class Samples:
             shapes = {"SplatAxis": _library.view(surface, _library.SPLAT_AXES),
                       "SplatPolygon": _library.view(surface, _library.SPLAT_POLYGONS)}
         return Isosurface(_library.view(surface, _library.POINTS), triangles, arrays, shapes,
-                          self._maker)
+                          self._maker, threads=self._threads)
 
 
 def _computed(surface: _library.Handle, options: _library.Options) -> dict[str, np.ndarray]:

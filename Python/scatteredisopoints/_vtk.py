@@ -2,24 +2,25 @@
 """The filters in Python, on the C library, for versions of VTK without the compiled classes.
 
 Methods, constants, defaults, ranges, output arrays and messages are those of the compiled classes, which
-document them. Differences: no vtkHyperTreeGrid; strings are not copied to the output; each process contours
-its own samples; GetErrorCode() is 0 for C++ callers.
+document them. docs/python.md lists the differences.
 """
 
 from __future__ import annotations
 
 import errno
+import re
 from typing import Any, Callable, Optional
 
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
-from vtkmodules.vtkCommonCore import vtkOutputWindow
+from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkVersion
 from vtkmodules.vtkCommonDataModel import (
-    vtkCompositeDataSet, vtkDataObject, vtkMultiBlockDataSet, vtkPolyData)
+    vtkCompositeDataSet, vtkDataObject, vtkMultiBlockDataSet, vtkPartitionedDataSetCollection, vtkPolyData)
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkStreamingDemandDrivenPipeline
 from vtkmodules.vtkCommonMisc import vtkContourValues
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 from . import _datasets, _library, _progress
+from ._arrays import CELL, POINT
 from ._options import CONSTANTS, option_names, property_name
 from ._properties import Property, properties_of
 from ._samples import Extracted, Samples
@@ -65,6 +66,13 @@ def _add_methods(cls: type, property_: Property) -> None:
         setattr(cls, method, function)
 
 
+def in_properties(text: str) -> str:
+    """A message of the library, with the names of properties instead of options: DropGaps, not drop_gaps."""
+    options = "|".join({*option_names(True), *option_names(False)})
+    return re.sub(rf'"[^"]*"|\b({options})\b',  # names of arrays are quoted
+                  lambda found: property_name(found[1]) if found[1] else found[0], text)
+
+
 def is_first_of_several() -> bool:
     """Whether this process is the first of several, by VTK's global controller."""
     controller = vtkMultiProcessController.GetGlobalController()
@@ -73,10 +81,12 @@ def is_first_of_several() -> bool:
 
 
 def _fill(output: Any, data: Any, make: Callable[[Any, int], Optional[vtkPolyData]]) -> None:
-    """Gives a composite the structure of another one, with a result for each of its blocks."""
+    """Gives a composite the structure of another one, with a result for each of its data sets: other leaves,
+    such as tables, have none."""
     output.CopyStructure(data)
     for number, place in enumerate(_datasets.places(data)):
-        output.SetDataSet(place, make(place.GetCurrentDataObject(), number))
+        block = place.GetCurrentDataObject()
+        output.SetDataSet(place, make(block, number) if block.IsA("vtkDataSet") else None)
 
 
 class _Algorithm(VTKPythonAlgorithmBase):
@@ -134,6 +144,10 @@ class _Algorithm(VTKPythonAlgorithmBase):
                 self._report("ErrorEvent", str(error))
         return 1
 
+    def _callbacks(self, part: tuple[float, float]) -> dict[str, Any]:
+        """The callbacks of _library.Callbacks, for a part of the progress."""
+        return dict(progress=_progress.part(self.UpdateProgress, *part), is_canceled=self.GetAbortExecute)
+
     def _report(self, event: str, text: str) -> None:
         """Reports to observers, otherwise to the output window, as VTK's macros do."""
         kind = "ERROR" if event == "ErrorEvent" else "Warning"
@@ -157,7 +171,7 @@ class _Contour(_Algorithm):
         self._contours = vtkContourValues()
         self._contours.SetValue(0, 0.0)
         self._kept: dict[int, tuple[Any, Samples]] = {}  # by block number
-        self._reported: set[str] = set()
+        self._reported: set[str] = set()  # causes
         self._reported_of: Any = None
         self._counts = dict.fromkeys(_COUNTS, 0)
 
@@ -204,66 +218,81 @@ class _Contour(_Algorithm):
         if is_first_of_several():
             messages.append(_library.Message(
                 "Each process contours its own samples: surfaces have seams. The compiled plugin"
-                " contours those of all processes as one cloud.", is_warning=True))
+                " contours those of all processes as one cloud.", is_warning=True, cause="processes"))
         self._counts = dict.fromkeys(_COUNTS, 0)
         is_kept = False
         try:
             if isinstance(output, vtkCompositeDataSet):
-                self._contour_blocks(data, output, messages)
+                messages += self._contour_blocks(data, output)
             else:
                 self._kept = {0: self._kept[0]} if 0 in self._kept else {}
-                output.ShallowCopy(self._contour_one(data, 0, (0.0, 1.0), messages))
+                extracted = self._contour_one(data, 0, (0.0, 1.0))
+                output.ShallowCopy(extracted.isosurface.polydata)
+                messages += extracted.messages
             is_kept = self._values["KeepTree"]
         finally:
             if not is_kept:
                 self._kept.clear()
         self._report_messages(messages)
 
-    def _contour_blocks(self, data: Any, output: Any, messages: list[_library.Message]) -> None:
+    def _contour_blocks(self, data: Any, output: Any) -> list[_library.Message]:
+        """Contours each block. Returns the messages about all."""
         count = sum(1 for _ in _datasets.leaves(data))
+        found: list[Extracted] = []
         lacking: list[_datasets.NoSamplesError] = []
 
         def contour(block: Any, number: int) -> Optional[vtkPolyData]:
             try:
-                part = number / count, (number + 1) / count
-                return self._contour_one(block, number, part, messages)
+                found.append(self._contour_one(block, number, (number / count, (number + 1) / count)))
+                return found[-1].isosurface.polydata
             except _datasets.NoSamplesError as error:
                 lacking.append(error)
                 return None
 
         _fill(output, data, contour)
-        if count and len(lacking) == count:
-            raise lacking[0]
+        lacking.sort(key=lambda error: error.without_array == 0)  # those that name arrays come first
+        if not found:
+            raise lacking[0] if lacking else _datasets.NoSamplesError()
+        first, *others = found
+        for other in others:
+            _library.run(_library.join_messages, first.surface, other.surface)
+        messages = first.messages + [message for other in others for message in other.own_messages]
+        without_array = sum(error.without_array for error in lacking)
+        if without_array:
+            self._counts["Samples"] += without_array
+            self._counts["SkippedSamples"] += without_array
+            messages.append(_datasets.describe_without_array(without_array, self._array_choice()[0] or ""))
+        return messages
 
-    def _contour_one(self, data: Any, number: int, part: tuple[float, float],
-                     messages: list[_library.Message]) -> vtkPolyData:
+    def _contour_one(self, data: Any, number: int, part: tuple[float, float]) -> Extracted:
         begin, end = part
         half = 0.5 * (begin + end)
-        samples = self._samples(data, number, _progress.part(self.UpdateProgress, begin, half))
+        samples = self._samples(data, number, (begin, half))
         options = {option: self._values[property_name(option)] for option in option_names(self._triangles)}
-        extracted: Extracted = samples._extract(
-            self.GetValues(), self._triangles, None, options,
-            progress=_progress.part(self.UpdateProgress, half, end), is_canceled=self.GetAbortExecute)
+        try:
+            extracted: Extracted = samples._extract(
+                self.GetValues(), self._triangles, None, options, **self._callbacks((half, end)))
+        except ValueError as error:
+            raise ValueError(in_properties(str(error))) from None
+        surface = extracted.surface
         for name, count in zip(_COUNTS, (
                 len(samples) + samples._without_array, len(extracted.isosurface),
-                samples.skipped + samples._without_array, extracted.unprojected, extracted.dropped)):
+                samples.skipped + samples._without_array, _library.get_unprojected_count(surface),
+                _library.get_dropped_count(surface))):
             self._counts[name] += count
-        messages += extracted.messages
-        surface = extracted.isosurface
-        if self._has_polygons and surface.splat_shapes and surface.normals is not None:
-            surface = surface.splats()
-        return surface.polydata
+        isopoints = extracted.isosurface
+        if self._has_polygons and isopoints.splat_shapes and isopoints.normals is not None:
+            extracted.isosurface = isopoints._splats(is_canceled=self.GetAbortExecute)
+        return extracted
 
-    def _samples(self, data: Any, number: int, progress: Any) -> Samples:
+    def _samples(self, data: Any, number: int, part: tuple[float, float]) -> Samples:
         """The samples of the last update, unless something has changed."""
-        info = self.GetInputArrayInformation(0)
-        name = info.Get(vtkDataObject.FIELD_NAME()) if info.Has(vtkDataObject.FIELD_NAME()) else None
-        cells = info.Get(vtkDataObject.FIELD_ASSOCIATION()) == vtkDataObject.FIELD_ASSOCIATION_CELLS
-        key = name, cells, _datasets.state_of(data)
+        choice = self._array_choice()
+        key = choice, _datasets.state_of(data)
         kept_key, samples = self._kept.get(number, (None, None))
         if samples is None or kept_key != key:
-            found = _datasets.samples_of(data, name or None, cells)
-            callbacks = dict(progress=progress, is_canceled=self.GetAbortExecute)
+            found = _datasets.samples_of(data, *choice)
+            callbacks = self._callbacks(part)
             if samples is None:
                 samples = Samples._of(found, **callbacks)
             else:
@@ -271,14 +300,25 @@ class _Contour(_Algorithm):
             self._kept[number] = key, samples
         return samples
 
+    def _array_choice(self) -> tuple[Optional[str], tuple[int, ...], int]:
+        """The array to process, as samples_of() takes it: name, associations, active array."""
+        info = self.GetInputArrayInformation(0)
+        name = info.Get(vtkDataObject.FIELD_NAME()) if info.Has(vtkDataObject.FIELD_NAME()) else None
+        associations = {vtkDataObject.FIELD_ASSOCIATION_CELLS: (CELL,),
+                        vtkDataObject.FIELD_ASSOCIATION_POINTS_THEN_CELLS: (POINT, CELL)}
+        key = vtkDataObject.FIELD_ATTRIBUTE_TYPE()
+        return (name or None, associations.get(info.Get(vtkDataObject.FIELD_ASSOCIATION()), (POINT,)),
+                info.Get(key) if info.Has(key) else _datasets.SCALARS)
+
     def _report_messages(self, messages: list[_library.Message]) -> None:
         """Reports each cause once while it persists for the same input."""
         producer = self.GetInputAlgorithm() if self.GetNumberOfInputConnections(0) else None
         before = self._reported if self._reported_of is producer else set()
-        self._reported_of, self._reported = producer, {message.text for message in messages}
+        self._reported_of, self._reported = producer, set()
         for message in messages:
-            if message.text not in before:
-                self._report("WarningEvent" if message.is_warning else "MessageEvent", message.text)
+            if message.cause not in before | self._reported:
+                self._report("WarningEvent" if message.is_warning else "MessageEvent", in_properties(message.text))
+            self._reported.add(message.cause)
 
 
 @_with_properties("ScatteredIsopoints", "UseGlobalController")
@@ -316,16 +356,29 @@ class vtkIsopointSplatPolygons(_Algorithm):
         return self._radius_array
 
     def _output_class(self, data: Any) -> type:
-        return vtkMultiBlockDataSet if isinstance(data, vtkCompositeDataSet) else vtkPolyData
+        if not isinstance(data, vtkCompositeDataSet):
+            return vtkPolyData
+        # Before VTK 9.3, ParaView's geometry representation does not accept such collections.
+        is_new = (vtkVersion.GetVTKMajorVersion(), vtkVersion.GetVTKMinorVersion()) >= (9, 3)
+        return (vtkPartitionedDataSetCollection
+                if is_new and data.IsA("vtkPartitionedDataSetCollection") else vtkMultiBlockDataSet)
 
     def _make(self, data: Any, output: Any) -> None:
         if isinstance(output, vtkPolyData):
-            output.ShallowCopy(self._polygons(data))
-        else:
-            _fill(output, data, lambda block, _: self._polygons(block))
+            output.ShallowCopy(self._polygons(data, (0.0, 1.0)))
+            return
+        count = sum(1 for _ in _datasets.leaves(data))
+        _fill(output, data,
+              lambda block, number: self._polygons(block, (number / count, (number + 1) / count)))
 
-    def _polygons(self, data: Any) -> vtkPolyData:
+    def _polygons(self, data: Any, part: tuple[float, float]) -> vtkPolyData:
         if data.GetNumberOfPoints() == 0:
-            return vtkPolyData()
-        return polygons_of(
-            data, self._radius_array, self._values["Radius"], self._values["RadiusScale"]).polydata
+            empty = vtkPolyData()
+            empty.GetFieldData().ShallowCopy(data.GetFieldData())
+            return empty
+        polygons, problem = polygons_of(
+            data, self._radius_array, self._values["Radius"], self._values["RadiusScale"],
+            **self._callbacks(part))
+        if problem:
+            self._report("WarningEvent", problem)
+        return polygons

@@ -546,6 +546,96 @@ TEST(Library, ACanceledCallCanBeRepeated)
   EXPECT_EQ(cloud.load(extractor.get()), ISOPOINT_OK);
 }
 
+// Those of an extraction, which may be gone, and those of kept splats, which have none.
+TEST(Library, SurfacesTakeOtherCallbacksAndThreads)
+{
+  const Extractor extractor(Cloud(20000));
+  Observed former;
+  ASSERT_EQ(isopoint_set_callbacks(extractor.get(), observe, isCanceled, &former), ISOPOINT_OK);
+  const Surface extracted = extractor.extract();
+  const KeptSplats splats(extracted);
+  isopoint_surface* created = nullptr;
+  ASSERT_EQ(splats.create(&created), ISOPOINT_OK);
+  const Surface kept(created, isopoint_destroy_surface);
+  former = Observed();
+  for (const Surface* const surface : { &extracted, &kept })
+  {
+    Observed observed;
+    ASSERT_EQ(isopoint_set_surface_callbacks(surface->get(), observe, isCanceled, &observed),
+      ISOPOINT_OK);
+    ASSERT_EQ(isopoint_set_surface_threads(surface->get(), 1), ISOPOINT_OK);
+    ASSERT_EQ(isopoint_make_splat_mesh(surface->get(), 1.0), ISOPOINT_OK);
+    EXPECT_EQ(observed.fractions.back(), 1.0);
+    EXPECT_GT(observed.asked, 0);
+    observed = Observed();
+    observed.cancelAfter = 0;
+    EXPECT_EQ(isopoint_make_splat_mesh(surface->get(), 1.0), ISOPOINT_CANCELED);
+    ASSERT_EQ(
+      isopoint_set_surface_callbacks(surface->get(), nullptr, nullptr, nullptr), ISOPOINT_OK);
+    observed = Observed();
+    ASSERT_EQ(isopoint_make_splat_mesh(surface->get(), 1.0), ISOPOINT_OK);
+    EXPECT_EQ(observed.asked + static_cast<int>(observed.fractions.size()), 0);
+  }
+  EXPECT_EQ(former.asked + static_cast<int>(former.fractions.size()), 0);
+  EXPECT_EQ(numbersOf<double>(kept, ISOPOINT_SPLAT_VERTICES),
+    numbersOf<double>(extracted, ISOPOINT_SPLAT_VERTICES));
+  expectInvalid(isopoint_set_surface_threads(kept.get(), -1), "threads");
+  expectInvalid(isopoint_set_surface_callbacks(nullptr, nullptr, nullptr, nullptr));
+}
+
+// Programs show a message once while its cause lasts, although its figures change.
+TEST(Library, MessagesHaveTheKeyOfTheirCause)
+{
+  Cloud cloud;
+  const Extractor extractor(cloud);
+  const auto messageAndKey = [&](double isovalue)
+  {
+    const Surface surface = extractor.extract({ isovalue });
+    EXPECT_EQ(isopoint_get_message_cause(surface.get(), 1), nullptr);
+    return std::array<std::string, 2>{ isopoint_get_message(surface.get(), 0, nullptr),
+      isopoint_get_message_cause(surface.get(), 0) };
+  };
+  const auto first = messageAndKey(9.0);
+  cloud.values[0] = 2.5;
+  ASSERT_EQ(cloud.load(extractor.get()), ISOPOINT_OK);
+  const auto later = messageAndKey(9.0);
+  EXPECT_NE(later[0], first[0]);
+  EXPECT_EQ(later[1], first[1]);
+  EXPECT_NE(messageAndKey(8.0)[1], first[1]);
+  ASSERT_EQ(isopoint_set_name(extractor.get(), "density"), ISOPOINT_OK);
+  const auto named = messageAndKey(9.0);
+  expectContains(named[0], "\"density\" is from");
+  EXPECT_NE(named[1], first[1]);
+  ASSERT_EQ(isopoint_set_name(extractor.get(), nullptr), ISOPOINT_OK);
+  EXPECT_EQ(messageAndKey(9.0), later);
+  EXPECT_EQ(isopoint_get_message_cause(nullptr, 0), nullptr);
+}
+
+// Of two blocks one has the first isovalue, the other one has the second, and none has the third.
+TEST(Library, MessagesAreJoined)
+{
+  std::vector<Surface> surfaces;
+  for (const double offset : { 0.0, 10.0 })
+  {
+    Cloud cloud;
+    std::for_each(cloud.values.begin(), cloud.values.end(), [&](double& v) { v += offset; });
+    cloud.values[0] = std::numeric_limits<double>::quiet_NaN();
+    surfaces.push_back(Extractor(cloud).extract({ 0.7, 10.7, 99.0 }));
+  }
+  const Surface& joined = surfaces[0];
+  const std::int64_t dropped = isopoint_get_dropped_count(surfaces[0].get()) +
+                               isopoint_get_dropped_count(surfaces[1].get());
+  ASSERT_EQ(isopoint_join_messages(joined.get(), surfaces[1].get()), ISOPOINT_OK);
+  EXPECT_EQ(isopoint_get_dropped_count(joined.get()), dropped);
+  const std::string outside = isopoint_get_message(joined.get(), 0, nullptr);
+  expectContains(outside, "No isosurface at 99: ");
+  expectContains(isopoint_get_message(joined.get(), 1, nullptr), "Skipped 2 of 10000");
+  EXPECT_EQ(isopoint_get_message(joined.get(), 2, nullptr), nullptr);
+  const Surface other = Extractor(Cloud()).extract({ 0.5 });
+  expectInvalid(isopoint_join_messages(joined.get(), other.get()), "isovalues");
+  expectInvalid(isopoint_join_messages(joined.get(), nullptr), "other surface");
+}
+
 TEST(Library, TwoExtractorsWorkOnTwoThreads)
 {
   const Cloud cloud(20000);

@@ -78,14 +78,17 @@ class ContourTest(unittest.TestCase):
         distance = np.linalg.norm(lattice - 4.0, axis=1)
         self.same(contour(lattice, distance, 2.5), cloud_of(lattice.astype(float), distance), [2.5])
 
-    def test_masked_integers_are_left_out(self):
+    def test_masked_values_of_data_sets(self):
+        """They are left out, and integers count as rounded, with and without the compiled filters."""
         positions, values = samples()
         is_masked = np.arange(len(values)) % 7 == 0
-        numbers = (1000 * values).astype(np.int32)
-        with self.assertWarnsRegex(RuntimeWarning, "715 of 5000"):
-            result = contour(positions, np.ma.masked_array(numbers, is_masked), 300.5)
-        kept = contour(positions[~is_masked], numbers[~is_masked].astype(float), 300.5)
-        self.assertEqual(result.points.tobytes(), kept.points.tobytes())
+        numbers = np.ma.masked_array((20 * values).astype(np.int32), is_masked)
+        data, kept = cloud_of(positions), contour(positions[~is_masked], numbers.compressed(), 6.5)
+        for options in (dict(), dict(threads=1)):
+            with self.assertWarnsRegex(RuntimeWarning, "715 of 5000 values are masked"):
+                result = contour(data, numbers, 6.5, **options)
+            self.assertEqual(result.points.tobytes(), kept.points.tobytes())
+        self.assertEqual(data.GetPointData().GetNumberOfArrays(), 0)
 
     def test_memory_is_shared(self):
         result = contour(*samples(), 0.3)

@@ -132,6 +132,15 @@ class DataSetsTest(unittest.TestCase):
             self.same(data, None, [isovalue], projection="no_projection")
             self.same(data, RANDOM.random(3000), [0.5])
 
+    def test_positions_that_are_integers(self):
+        positions = np.floor(40 * RANDOM.random((3000, 3)))
+        values = np.linalg.norm(positions - 20, axis=1)
+        for kinds in (("i4",), ("u1",), ("i1", "f4"), ("i8", "f8")):
+            blocks = [cloud_of(positions.astype(kind), values) for kind in kinds]
+            for triangles in (False, True):
+                self.assertGreater(self.same(blocks_of(*blocks), "values", [12.3], triangles=triangles), 100)
+            self.assertGreater(len(contour(blocks[0], "values", 12.3, threads=1).splats()), 1000)
+
     def test_composites(self):
         first, isovalue = prepared(cloud(), ghosts="points")
         second, _ = prepared(image())

@@ -16,6 +16,8 @@ import sys
 import threading
 import unittest
 import warnings
+import weakref
+from unittest import mock
 
 import numpy as np
 import scatteredisopoints
@@ -141,10 +143,25 @@ class Arrays(unittest.TestCase):
         with_nan, with_inf, places = values.copy(), values.copy(), positions.copy()
         with_nan[bad], with_inf[bad], places[bad, 1] = np.nan, np.inf, np.nan
         for place, value in ((positions, with_nan), (positions, with_inf), (places, values),
-                             (positions, np.ma.masked_array(values, bad)),
                              (np.ma.masked_array(positions, np.column_stack(3 * [bad])), values)):
             with self.assertWarnsRegex(RuntimeWarning, "Skipped 715 of 5000 samples: not finite"):
                 self.assertEqual(contents(contour(place, value, 0.3))[0], expected)
+
+    def test_masked_values(self):
+        """Their samples are left out. Integers count as rounded all the same."""
+        positions, values = cloud()
+        bad = np.arange(len(values)) % 7 == 0
+        whole = np.rint(20 * values)
+        samples = Samples(positions, values)
+        for kind in ("f4", "f8", "i2", "i8", "u1", "?"):
+            value, isovalue = (values > 0.3, 0.5) if kind == "?" else (whole.astype(kind), 6.5)
+            surface = contour(positions[~bad], value[~bad], isovalue)
+            masked = np.ma.masked_array(np.where(bad, value.max(), value), bad)
+            samples.replace_values(masked)
+            for found in (contour, lambda *_: samples.contour(isovalue)):
+                with self.subTest(kind), self.assertWarnsRegex(RuntimeWarning, "715 of 5000 values are masked"):
+                    self.assertTrue(contents(found(positions, masked, isovalue)) == contents(surface))
+            self.assertEqual(samples.skipped, 715)
 
     def test_few_samples(self):
         with self.assertRaisesRegex(ValueError, "no samples"):
@@ -220,6 +237,30 @@ class Results(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "wrong have the shape"):
                 surface.splats()
 
+    def test_splats_of_arrays_of_other_layouts(self):
+        surface = contour(*cloud(20000), 0.3)
+        expected = contents(surface.splats())
+        arrays = surface.points, surface.normals, *surface.splat_shapes.values()
+        for name, changed in (("swapped bytes", lambda array: array.astype(array.dtype.newbyteorder())),
+                              ("columns", lambda array: np.repeat(array, 2, axis=1)[:, ::2]),
+                              ("Fortran's order", np.asfortranarray), ("read-only", lambda array: array)):
+            surface.points, surface.arrays["Normals"], *shapes = map(changed, arrays)
+            surface.splat_shapes = dict(zip(surface.splat_shapes, shapes))
+            for array in (surface.points, *shapes):
+                array.flags.writeable = name != "read-only"
+            with self.subTest(name):
+                self.assertTrue(contents(surface.splats()) == expected)
+
+    def test_arrays_live_as_long_as_calls(self):
+        """What the library reads is passed as an array of NumPy, which its description keeps alive."""
+        numbers = np.arange(6.0)
+        self.assertIs(_library.Array.of(numbers).numbers, numbers)
+        declared = [value for value in vars(_library).values() if isinstance(value, ctypes._CFuncPtr)]
+        outputs = [each.__name__ for each in declared if ctypes.POINTER(_library.Array) in (each.argtypes or ())]
+        self.assertEqual(outputs, ["isopoint_get_array"])
+        inputs = [each.__name__ for each in declared if _library.Numbers in (each.argtypes or ())]
+        self.assertEqual(len(inputs), 4)
+
     def test_surfaces_without_splats(self):
         positions, values = cloud()
         for options in (dict(triangles=True), dict(compute_splats=False), dict(compute_normals=False)):
@@ -256,6 +297,23 @@ class Results(unittest.TestCase):
             found = [contents(contour(positions, values, 0.3, triangles=triangles, threads=threads))
                      for threads in (None, 1, 3)]
             self.assertEqual(found[1:], [found[0]] * 2)
+
+    @unittest.skipUnless(os.path.exists("/proc/self/task"), "threads are read from /proc")
+    def test_one_thread_is_one(self):
+        script = ("import numpy, os; from scatteredisopoints import contour\n"
+                  "positions = numpy.random.default_rng(1).random((50000, 3))\n"
+                  "values = numpy.linalg.norm(positions - 0.5, axis=1)\n"
+                  "before = len(os.listdir('/proc/self/task'))\n"
+                  "for triangles in (True, False): surface = contour(positions, values, 0.3, threads=1,"
+                  " triangles=triangles)\n"
+                  "surface.splats()\n"
+                  "print(len(os.listdir('/proc/self/task')) - before, len(surface.splats(threads=2)))\n")
+        result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+        more, count = map(int, result.stdout.split())
+        self.assertEqual(more, 0)
+        self.assertGreater(count, 10000)
+        with self.assertRaisesRegex(ValueError, "threads are 0"):
+            contour(*cloud(), 0.3).splats(threads=0)
 
     def test_views_outlive_what_they_are_of(self):
         points = contour(*cloud(), 0.3).points
@@ -370,6 +428,28 @@ class KeptTrees(unittest.TestCase):
         self.assertLess(after - before, 30e6)
 
 
+    def test_callers_die_before_their_surfaces(self):
+        """What is called back is free after the call, without the garbage collector, though results live on."""
+        class Caller:
+            def report(self, fraction):
+                self.fraction = fraction
+
+        samples = Samples(*cloud())
+        gc.disable()
+        try:
+            caller = Caller()
+            reference = weakref.ref(caller)
+            surface = samples.contour(0.3, progress=caller.report)
+            splats = surface.splats(progress=caller.report)
+            samples.replace_values(samples.contour(0.3).points[:1, 0].repeat(5000), progress=caller.report)
+            self.assertEqual(caller.fraction, 1.0)
+            del caller
+            self.assertIsNone(reference())
+        finally:
+            gc.enable()
+        self.assertGreater(len(splats), len(surface))
+
+
 class Interruptions(unittest.TestCase):
     def setUp(self):
         # Processes that a shell starts in the background ignore it.
@@ -384,6 +464,10 @@ class Interruptions(unittest.TestCase):
             self.assertEqual(fractions[-1], 1.0)
             self.assertGreater(len(fractions), 5)
             self.assertGreaterEqual(fractions[0], 0.0)
+        fractions = []
+        surface = contour(positions, values, 0.3)
+        surface.splats(progress=fractions.append)
+        self.assertEqual((fractions, fractions[-1]), (sorted(fractions), 1.0))
 
     def test_progress_may_end_the_work(self):
         class Enough(Exception):
@@ -419,7 +503,14 @@ class Interruptions(unittest.TestCase):
         for _ in range(5):
             with self.assertRaises(KeyboardInterrupt):
                 samples.contour(0.3, progress=interrupt)
-        self.assertGreater(len(samples.contour(0.3)), 1000)
+        surface = samples.contour(0.3)
+        self.assertGreater(len(surface), 1000)
+        with self.assertRaises(KeyboardInterrupt):
+            surface.splats(progress=lambda _: os.kill(os.getpid(), signal.SIGINT))
+        # Handlers of signals run within the call, where it asks whether to end.
+        with mock.patch.object(_library.Callbacks, "_is_over", side_effect=KeyboardInterrupt):
+            with self.assertRaises(KeyboardInterrupt):
+                surface.splats()
 
     def test_signals_and_the_end_of_the_interpreter(self):
         none = r"\A\Z"

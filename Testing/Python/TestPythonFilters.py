@@ -9,9 +9,8 @@ import fingerprint
 import numpy as np
 import scatteredisopoints
 from scatteredisopoints import _vtk
-from vtk_data import assert_same, blocks_of, cloud_of, configured, named, updated
+from vtk_data import assert_same, blocks_of, cloud_of, configured, named, observed, updated
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import VTK_STRING
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
 
@@ -33,17 +32,6 @@ def own_methods(class_):
 def cloud(count=5000):
     positions = np.random.default_rng(1).random((count, 3))
     return cloud_of(positions, np.linalg.norm(positions - 0.5, axis=1), "distance")
-
-
-def observed(filter_):
-    """The texts of a filter's events, as they arrive."""
-    texts = {"ErrorEvent": [], "WarningEvent": [], "MessageEvent": []}
-    for event, list_ in texts.items():
-        def note(_caller, _event, text, list_=list_):
-            list_.append(text)
-        note.CallDataType = VTK_STRING
-        filter_.AddObserver(event, note)
-    return texts
 
 
 class PythonFilters(unittest.TestCase):

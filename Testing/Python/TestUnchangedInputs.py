@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """No filter changes its input, at its first update or at a later one with another property."""
 
+import itertools
 import unittest
 
 import numpy as np
-from scatteredisopoints import vtkIsopointSplatPolygons, vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
+import scatteredisopoints
+from scatteredisopoints import _vtk
 from vtk_data import blocks_of, cloud_of, configured, leaves_of, named, names_of, positions_in
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkStringArray
@@ -13,9 +15,9 @@ from vtkmodules.vtkCommonDataModel import (
 
 # For each filter a property, and the values of the updates.
 CHANGES = {
-    vtkScatteredIsopointFilter: ("SetAngle", (54.7, 50.0, 60.0)),
-    vtkScatteredIsosurfaceFilter: ("SetProjection", (3, 0, 1)),
-    vtkIsopointSplatPolygons: ("SetRadiusScale", (1.0, 2.0, 0.5)),
+    "vtkScatteredIsopointFilter": ("SetAngle", (54.7, 50.0, 60.0)),
+    "vtkScatteredIsosurfaceFilter": ("SetProjection", (3, 0, 1)),
+    "vtkIsopointSplatPolygons": ("SetRadiusScale", (1.0, 2.0, 0.5)),
 }
 
 
@@ -76,7 +78,8 @@ def content(data):
 
 class UnchangedInputs(unittest.TestCase):
     def test_every_filter_and_input(self):
-        for filter_class, (method, values) in CHANGES.items():
+        for module, name in itertools.product((scatteredisopoints, _vtk), CHANGES):
+            filter_class, (method, values) = getattr(module, name), CHANGES[name]
             for make in (cloud, image, blocks, collection):
                 data = make()
                 before = content(data)
@@ -84,7 +87,7 @@ class UnchangedInputs(unittest.TestCase):
                 self.assertEqual("left" in str(before), make is blocks)
                 contour = configured(filter_class, data)
                 for update, value in enumerate(values):
-                    with self.subTest(filter_class.__name__, data=data.GetClassName(), update=update):
+                    with self.subTest(filter_class, data=data.GetClassName(), update=update):
                         getattr(contour, method)(value)
                         contour.Update()
                         output = contour.GetOutputDataObject(0)

@@ -130,6 +130,7 @@ def main(folder, wheel=None):
     newest = max(version for version in pythons if version >= (3, 10))
     environment = Environment(folder / "vtk", pythons[newest], wheel, "vtk")
     environment.run(TESTS / "TestPackage.py", "Results", "KeptTrees")
+    environment.run(TESTS / "TestFilters.py")
     check_results(environment, expected)
     examples = run_examples(environment, "python")
     print(f"{environment.describe()}: passed, {examples} examples of the documents")

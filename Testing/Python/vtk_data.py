@@ -3,7 +3,7 @@
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
+from vtkmodules.vtkCommonCore import VTK_STRING, vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import (
     vtkAMRBox, vtkCompositeDataSet, vtkMultiBlockDataSet, vtkOverlappingAMR, vtkPolyData, vtkUniformGrid)
 from vtkmodules.vtkIOImage import vtkPNGReader
@@ -138,6 +138,17 @@ def updated(*arguments, **properties):
     filter_ = configured(*arguments, **properties)
     filter_.Update()
     return filter_
+
+
+def observed(filter_):
+    """The texts of a filter's events, as they arrive."""
+    texts = {"ErrorEvent": [], "WarningEvent": [], "MessageEvent": []}
+    for event, list_ in texts.items():
+        def note(_caller, _event, text, list_=list_):
+            list_.append(text)
+        note.CallDataType = VTK_STRING
+        filter_.AddObserver(event, note)
+    return texts
 
 
 def assert_same(test, ours, theirs):

@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The triangles that vtkIsopointSplatPolygons makes of points."""
+"""The triangles that vtkIsopointSplatPolygons makes of points, the compiled class and the one in Python.
+
+docs/python.md lists the differences. IS_COMPILED tells where tests follow them.
+"""
 
 import numpy as np
-from scatteredisopoints import vtkIsopointSplatPolygons
+import scatteredisopoints
+import scatteredisopoints._vtk
 from scenes import (
     RING, TUBE, add_array, array, ball_field, blocks_of, check, configured, halves, isopoints, output_of, polydata,
     positions_of, run, subset, torus_field, torus_splats)
@@ -15,12 +19,18 @@ from vtkmodules.vtkCommonTransforms import vtkTransform
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
 from vtkmodules.vtkFiltersGeneral import vtkTransformFilter
 
+IS_COMPILED = True
+OCTAGON = 8  # triangles
 UP = [0.0, 0.0, 1.0]
 SHAPES = ("SplatAxis", "SplatPolygon")
 
 
+def new_polygons():
+    return (scatteredisopoints if IS_COMPILED else scatteredisopoints._vtk).vtkIsopointSplatPolygons()
+
+
 def polygons_of(data, **properties):
-    polygons = configured(vtkIsopointSplatPolygons(), **properties)
+    polygons = configured(new_polygons(), **properties)
     events = []
     for event in ("WarningEvent", "ErrorEvent"):
         polygons.AddObserver(event, lambda _, name: events.append(name))
@@ -113,10 +123,11 @@ def arrays_are_interpolated():
     different = np.count_nonzero((high - low)[shared] > 1e-6)
     check(different < 0.001 * shared.sum(), f"one value at each but {different}")
     copied = output.GetPointData().GetArray("in another layout")
-    check(copied.IsA(other_layout().GetClassName()), "the layout stays")
+    check(not IS_COMPILED or copied.IsA(other_layout().GetClassName()), "the layout stays")
     check([copied.GetValue(i) for i in range(len(values))] == values.tolist(), "the same means")
     check(np.isin(array(output, "of integers"), np.arange(count)).all(), "integers stay")
-    check(output.GetPointData().GetAbstractArray("words").GetNumberOfValues() == len(values), "strings are kept")
+    words = output.GetPointData().GetAbstractArray("words")
+    check(words.GetNumberOfValues() == len(values) if IS_COMPILED else words is None, "strings are kept")
     check(not any(attributes.HasArray(name) for attributes in (output.GetPointData(), output.GetCellData())
                   for name in SHAPES), "shapes are not")
 
@@ -129,11 +140,16 @@ def octagons_and_octahedra():
 
     for normal in (UP, [1.0, 2.0, -3.0], [0, 0, -1e-20], [1e30, 0, 0]):
         triangles, normals = single([normal])
-        check(len(triangles) == 8, "eight triangles")
+        check(len(triangles) == OCTAGON, "an octagon")
         check(np.isclose(np.linalg.norm(areas(triangles).sum(0)), 2 * np.sqrt(2) * radius**2), "an octagon's area")
         check(np.allclose(normals, np.array(normal) / np.linalg.norm(normal)), "of one normal")
         check((areas(triangles) @ normals[0, 0] > 0).all(), "facing along it")
     for normals in (None, [[0.0, 0.0, 0.0]], [[np.nan, 0.0, 0.0]]):
+        if not IS_COMPILED:
+            output, events = polygons_of(polydata([center], normals))
+            check(output.GetNumberOfPolys() == 0, "nothing")
+            check(events == (["ErrorEvent"] if normals is None else []), f"an error: {events}")
+            continue
         triangles, normals = single(normals)
         volume = np.einsum("ij,ij->i", triangles[:, 0] - center, areas(triangles)).sum() / 3
         check(len(triangles) == 8 and np.isclose(volume, 4 / 3 * radius**3), "an octahedron")
@@ -187,7 +203,7 @@ def arrays_of_the_wrong_shape():
             add_array(damaged, "SplatPolygon", np.zeros((torus.GetNumberOfPoints(), 7)), cells=True)
         output, events = polygons_of(damaged)
         check(events == ([] if removed == SHAPES else ["WarningEvent"]), f"warnings without {removed}: {events}")
-        check(output.GetNumberOfPolys() == 8 * np.count_nonzero(array(torus, "Radius")), "octagons instead")
+        check(output.GetNumberOfPolys() == OCTAGON * np.count_nonzero(array(torus, "Radius")), "octagons instead")
 
 
 def shapes_are_those_of_vertices():
@@ -223,7 +239,7 @@ def shapes_are_those_of_vertices():
     # Points without a vertex of their own.
     octagons, _, _ = triangles_of(with_vertices([], []))
     visible = np.flatnonzero(array(torus, "Radius"))
-    check(len(octagons) == 8 * len(visible), "octagons without cells")
+    check(len(octagons) == OCTAGON * len(visible), "octagons without cells")
     of_several, _, _ = triangles_of(with_vertices([every.tolist()], [0]))
     check(np.array_equal(of_several, octagons), "octagons for a cell of several")
     some = order[: count // 2]
@@ -231,7 +247,7 @@ def shapes_are_those_of_vertices():
         triangles, _, output = triangles_of(kind)
         drawn = np.isin(array(output, "vtkOriginalPointIds")[corners_of(output)[:, 0]], some)
         check(np.array_equal(triangles[drawn], expected[np.isin(ids, some)]), "where there is one")
-        missing = octagons.reshape(-1, 8, 3, 3)[~np.isin(visible, some)]
+        missing = octagons.reshape(-1, OCTAGON, 3, 3)[~np.isin(visible, some)]
         check(np.array_equal(triangles[~drawn], missing.reshape(-1, 3, 3)), "octagons elsewhere")
     # Files may have them at the points.
     old = with_vertices(alone, [])
@@ -246,7 +262,7 @@ def shapes_are_those_of_vertices():
     slope = np.abs((normals * shapes[0]).sum(1)) / np.linalg.norm(shapes[0], axis=1)
     _, _, output = triangles_of(turned)
     found = np.bincount(array(output, "vtkOriginalCellIds", cells=True), minlength=count)
-    check((found[slope > 2e-4] == 8).all(), "octagons around other normals")
+    check((found[slope > 2e-4] == OCTAGON).all(), "octagons around other normals")
 
 
 def transforms_turn_splats():
@@ -265,16 +281,16 @@ def cells():
     data.GetFieldData().AddArray(filled(vtkStringArray, "of the field", ["a"]))
     for kind in (data, grid_of(data)):
         _, _, output = triangles_of(kind)
-        check(array(output, "value", cells=True).tolist() == 8 * [5.0] + 8 * [7.0], "arrays of cells")
+        check(array(output, "value", cells=True).tolist() == OCTAGON * [5.0] + OCTAGON * [7.0], "arrays of cells")
     _, _, output = triangles_of(data)
     check(output.GetFieldData().GetAbstractArray("of the field").GetValue(0) == "a", "the field's array")
     data.SetVerts(None)
     data.GetCellData().Initialize()
     _, _, output = triangles_of(data)
-    check(output.GetNumberOfPolys() == 16, "points without cells")
+    check(output.GetNumberOfPolys() == 2 * OCTAGON, "points without cells")
     check(output.GetCellData().GetNumberOfArrays() == 0, "have no arrays of cells")
     image = configured(vtkImageData(), Dimensions=(3, 2, 1))
-    check(len(triangles_of(image, Radius=0.1)[0]) == 6 * 8, "points of an image")
+    check(not IS_COMPILED or len(triangles_of(image, Radius=0.1)[0]) == 6 * 8, "points of an image")
 
 
 def blocks():
@@ -298,7 +314,7 @@ def progress_and_aborts():
     torus = torus_splats(20_000)
     large = torus_splats(100_000)
     for data, fewest in ((large, 4), (blocks_of(large, large), 7), (torus, 1), (blocks_of(*6 * [torus]), 7)):
-        polygons = configured(vtkIsopointSplatPolygons(), InputDataObject=data)
+        polygons = configured(new_polygons(), InputDataObject=data)
         events, abort_at = [], 0
 
         def watch(caller, _):
@@ -347,6 +363,10 @@ def precision():
     check(np.abs(ball_field(triangles.reshape(-1, 3) - offset)).max() < 0.02, "on the sphere")
 
 
-run(splats_of_isopoints, arrays_are_interpolated, octagons_and_octahedra, the_automatic_radius_suits_the_finite_points,
-    what_cannot_be_drawn_is_left_out, arrays_of_the_wrong_shape, shapes_are_those_of_vertices, transforms_turn_splats,
-    cells, blocks, progress_and_aborts, bits_are_copied, precision)
+TESTS = (splats_of_isopoints, arrays_are_interpolated, octagons_and_octahedra,
+         the_automatic_radius_suits_the_finite_points, what_cannot_be_drawn_is_left_out, arrays_of_the_wrong_shape,
+         shapes_are_those_of_vertices, transforms_turn_splats, cells, blocks, progress_and_aborts, bits_are_copied,
+         precision)
+run(*TESTS)
+IS_COMPILED, OCTAGON = False, 6
+run(*TESTS)
