@@ -66,11 +66,17 @@ def _add_methods(cls: type, property_: Property) -> None:
         setattr(cls, method, function)
 
 
-def in_properties(text: str) -> str:
-    """A message of the library, with the names of properties instead of options: DropGaps, not drop_gaps."""
-    options = "|".join({*option_names(True), *option_names(False)})
-    return re.sub(rf'"[^"]*"|\b({options})\b',  # names of arrays are quoted
-                  lambda found: property_name(found[1]) if found[1] else found[0], text)
+def in_properties(text: str, as_in_panel: bool = False) -> str:
+    """A message of the library, with the names of properties instead of options: DropGaps, or as in ParaView's panel
+    Drop Gaps, not drop_gaps."""
+    options = "|".join({*option_names(True), *option_names(False), "contour_blocks"})
+
+    def name(found: re.Match) -> str:
+        if not found[1]:
+            return found[0]
+        return found[1].replace("_", " ").title() if as_in_panel else property_name(found[1])
+
+    return re.sub(rf'"[^"]*"|\b({options})\b', name, text)  # names of arrays are quoted
 
 
 def is_first_of_several() -> bool:
@@ -168,6 +174,7 @@ class _Contour(_Algorithm):
 
     def __init__(self):
         super().__init__()
+        self._values["UsePanelNames"] = 0  # the XML has ParaView's default
         self._contours = vtkContourValues()
         self._contours.SetValue(0, 0.0)
         self._kept: dict[int, tuple[Any, Samples]] = {}  # by block number
@@ -273,7 +280,7 @@ class _Contour(_Algorithm):
             extracted: Extracted = samples._extract(
                 self.GetValues(), self._triangles, None, options, **self._callbacks((half, end)))
         except ValueError as error:
-            raise ValueError(in_properties(str(error))) from None
+            raise ValueError(in_properties(str(error), self._values["UsePanelNames"])) from None
         surface = extracted.surface
         for name, count in zip(_COUNTS, (
                 len(samples) + samples._without_array, len(extracted.isosurface),
@@ -317,7 +324,8 @@ class _Contour(_Algorithm):
         self._reported_of, self._reported = producer, set()
         for message in messages:
             if message.cause not in before | self._reported:
-                self._report("WarningEvent" if message.is_warning else "MessageEvent", in_properties(message.text))
+                self._report("WarningEvent" if message.is_warning else "MessageEvent",
+                             in_properties(message.text, self._values["UsePanelNames"]))
             self._reported.add(message.cause)
 
 
