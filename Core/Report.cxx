@@ -41,12 +41,16 @@ std::string join(const std::vector<std::string>& parts)
   return all;
 }
 
+/// All numbers, or the first ones and how many more there are.
 std::string join(const std::vector<double>& numbers, int digits)
 {
+  constexpr std::size_t most = 10;
+  const std::size_t shown = std::min(numbers.size(), most);
   std::vector<std::string> texts;
-  std::transform(numbers.begin(), numbers.end(), std::back_inserter(texts),
-    [digits](double number) { return textOf(number, digits); });
-  return join(texts);
+  std::transform(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(shown),
+    std::back_inserter(texts), [digits](double number) { return textOf(number, digits); });
+  const std::size_t more = numbers.size() - shown;
+  return join(texts) + (more > 0 ? " and " + std::to_string(more) + " more" : "");
 }
 
 /// A share, coarse enough to stay the same under small changes.
@@ -295,10 +299,9 @@ void Report::add(const Report& other)
 {
   std::transform(this->points.begin(), this->points.end(), other.points.begin(),
     this->points.begin(), std::plus<>());
-  for (std::uint64_t Report::* const count :
-    { &Report::unprojectedPoints, &Report::innerCorners, &Report::cornersApart,
-      &Report::droppedInGaps, &Report::samples, &Report::notFinite, &Report::excluded,
-      &Report::withoutArray })
+  for (std::uint64_t Report::*const count : { &Report::unprojectedPoints, &Report::innerCorners,
+         &Report::cornersApart, &Report::droppedInGaps, &Report::samples, &Report::notFinite,
+         &Report::excluded, &Report::withoutArray })
   {
     this->*count += other.*count;
   }

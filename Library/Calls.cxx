@@ -4,6 +4,7 @@
 #include "Core/Base/Threads.h"
 #include "Core/Contour.h"
 #include "Core/Failure.h"
+#include "Library/RunningCall.h"
 #include "Library/SampleReader.h"
 #include "Library/Surface.h"
 
@@ -51,18 +52,40 @@ isopoint_status failWithException()
   }
 }
 
-/// Runs a call; no exception leaves the library.
-template <class Call>
-isopoint_status run(const Call& call)
+/// Runs a function; no exception leaves the library.
+template <class Function>
+isopoint_status attempt(const Function& function)
 {
   try
   {
-    call();
+    function();
     return ISOPOINT_OK;
   }
   catch (...)
   {
     return failWithException();
+  }
+}
+
+/// Runs a call, unless this process was forked during another.
+template <class Call>
+isopoint_status run(const Call& call)
+{
+  return attempt(
+    [&]()
+    {
+      const isopoint::RunningCall running;
+      call();
+    });
+}
+
+/// Frees an object, unless a lock may forbid it.
+template <class T>
+void destroy(T* object)
+{
+  if (!isopoint::RunningCall::wasForkedMeanwhile())
+  {
+    delete object;
   }
 }
 
@@ -265,13 +288,13 @@ const char* isopoint_get_error(void)
 isopoint_extractor* isopoint_create_extractor(void)
 {
   isopoint_extractor* created = nullptr;
-  run([&]() { created = new isopoint_extractor; });
+  attempt([&]() { created = new isopoint_extractor; });
   return created;
 }
 
 void isopoint_destroy_extractor(isopoint_extractor* extractor)
 {
-  delete extractor;
+  destroy(extractor);
 }
 
 isopoint_status isopoint_set_threads(isopoint_extractor* extractor, int32_t threads)
@@ -379,7 +402,7 @@ isopoint_status isopoint_extract(isopoint_extractor* extractor, const double* is
 
 void isopoint_destroy_surface(isopoint_surface* surface)
 {
-  delete surface;
+  destroy(surface);
 }
 
 isopoint_status isopoint_set_surface_threads(isopoint_surface* surface, int32_t threads)

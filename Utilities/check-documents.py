@@ -5,8 +5,7 @@
 Links, anchors, and the paths and identifiers in backticks exist. Blocks marked bash parse, and name presets, targets,
 options, tests and executable scripts that exist. Nothing is left to be filled in. Blocks marked python, pvpython or py
 (with PyVista) compile; the first two run on request. Tables of constants and of defaults have the values of the
-sources. Prints file:line: message for each defect and exits with 1 if there is any. The comment <!-- setup: FILE.py -->
-before a block runs a file of the tree before it.
+sources. Prints file:line: message for each defect and exits with 1 if there is any.
 """
 
 import argparse
@@ -117,13 +116,13 @@ class Checker:
             for match in re.finditer(pattern, where, re.MULTILINE):
                 line = text.count("\n", 0, match.start(match.lastindex)) + 1
                 check(line, *(group for group in match.groups() if group is not None))
-        for language, line, code, setup in document.blocks:
+        for language, line, code in document.blocks:
             if language not in LANGUAGES:
                 self.report(line, f"a block in the unknown language {language or '(none)'}")
             elif language == "bash":
                 self.check_commands(line, code)
             elif language in ("python", "pvpython", "py"):
-                self.check_script(line, language, code, setup)
+                self.check_script(line, language, code)
 
     def check_finished(self, line, word):
         if word not in CAPITALS and word not in self.known["identifier"]:
@@ -193,12 +192,9 @@ class Checker:
             if os.path.isfile(path) and not os.access(path, os.X_OK):
                 self.report(line, f"{script[1]} is not executable")
 
-    def check_script(self, first, language, code, setup):
+    def check_script(self, first, language, code):
         try:
-            before = read(os.path.join(self.root, setup)) if setup else ""
             compile("\n" * first + code, self.name, "exec")
-        except OSError:
-            return self.report(first, f"no file {setup}")
         except SyntaxError as error:
             return self.report(error.lineno or first, f"no Python: {error.msg}")
         command = {"python": sys.executable if self.python_path else None,
@@ -207,7 +203,7 @@ class Checker:
             environment = dict(os.environ, PYTHONPATH=self.python_path or os.environ.get("PYTHONPATH", ""))
             with tempfile.TemporaryDirectory() as folder:
                 with open(os.path.join(folder, "script.py"), "w", encoding="utf-8") as file:
-                    file.write(before + "\n" + code)
+                    file.write(code)
                 done = subprocess.run([command, "script.py"], cwd=folder, env=environment, text=True,
                                       stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
             if done.returncode != 0 or "ERROR" in done.stdout or "ERR|" in done.stdout:

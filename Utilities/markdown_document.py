@@ -3,7 +3,7 @@
 
 import re
 
-FENCES = re.compile(r"^ *(`{3,}|~{3,})([^`\n]*)\n(.*?)^ *\1 *$|<!--(.*?)-->", re.MULTILINE | re.DOTALL)
+FENCES = re.compile(r"^ *(`{3,}|~{3,})([^`\n]*)\n(.*?)^ *\1 *$|<!--.*?-->", re.MULTILINE | re.DOTALL)
 
 
 def read(path):
@@ -12,18 +12,14 @@ def read(path):
 
 
 class Document:
-    """Text without blocks and comments, and the blocks as (language, line, code, setup)."""
+    """Text without blocks and comments, and the blocks as (language, line, code)."""
 
     def __init__(self, path):
-        self.blocks, setup, end = [], "", 0
+        self.blocks = []
 
         def cut(match):
-            nonlocal setup, end
-            setup = setup if not source[end:match.start()].strip() else ""
-            end = match.end()
             if match[1]:
-                self.blocks.append((match[2].strip(), source.count("\n", 0, match.start()) + 1, match[3], setup))
-            setup = match[4].strip()[6:].strip() if match[4] and match[4].strip().startswith("setup:") else ""
+                self.blocks.append((match[2].strip(), source.count("\n", 0, match.start()) + 1, match[3]))
             return "\n" * match[0].count("\n")
 
         source = read(path)

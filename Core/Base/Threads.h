@@ -23,6 +23,9 @@
 #include <string>
 #include <thread>
 
+#ifndef _WIN32
+#include <pthread.h>
+#endif
 #ifdef __linux__
 #include <sched.h>
 #include <unistd.h>
@@ -123,22 +126,48 @@ inline std::size_t availableThreadsOfRank()
 
 constexpr bool hasThreads = true;
 
+/// Whether this process was forked from one that used oneTBB: it has none of its threads, and
+/// perhaps their locks.
+inline std::atomic<bool>& isForkOfThreads()
+{
+  static std::atomic<bool> isFork{ false };
+  return isFork;
+}
+
+/// To be called before oneTBB is used, for isForkOfThreads().
+inline void watchForksOfThreads()
+{
+#ifndef _WIN32
+  static const int watched = pthread_atfork(nullptr, nullptr, []() { isForkOfThreads() = true; });
+  static_cast<void>(watched);
+#endif
+}
+
 /// Makes an execution run on at most `threads` threads of oneTBB, including the calling one. If the
-/// system grants fewer, these do all the work. Once oneTBB failed to start, only the calling thread
-/// works, since another call would hang. Tasks must not throw; forRanges() ensures this.
+/// system grants fewer, these do all the work. Once oneTBB failed to start, and in a process forked
+/// from one that used it, only the calling thread works, since oneTBB would hang. Tasks must not
+/// throw; forRanges() ensures this.
 inline void useThreads(Execution& execution, std::size_t threads)
 {
   static std::atomic<bool> hasFailed{ false };
   std::shared_ptr<tbb::task_arena> arena;
   try
   {
-    if (hasFailed)
+    if (hasFailed || isForkOfThreads())
     {
       return;
     }
+    watchForksOfThreads();
     threads = std::min(
       threads, tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-    arena = std::make_shared<tbb::task_arena>(static_cast<int>(threads));
+    arena = std::shared_ptr<tbb::task_arena>(new tbb::task_arena(static_cast<int>(threads)),
+      [](tbb::task_arena* ended)
+      {
+        if (!isForkOfThreads())
+        {
+          delete ended;
+        }
+      });
   }
   catch (const std::exception&)
   {
@@ -157,6 +186,10 @@ inline void useThreads(Execution& execution, std::size_t threads)
         task(begin, std::min(begin + grain, count));
       }
     };
+    if (isForkOfThreads())
+    {
+      return work();
+    }
     try
     {
       const std::size_t workers = std::min(most, (count + grain - 1) / grain);

@@ -9,47 +9,59 @@ its ParaView plugin, load_plugin() and ray_trace().
 from __future__ import annotations
 
 import importlib
-from typing import Any
+import importlib.util
+from typing import TYPE_CHECKING, Any
 
 from . import _library
-from ._isosurface import Isosurface
-from ._samples import Samples
-from .contouring import contour
-from .plugin import load_plugin
+# Type checkers take only names imported as themselves for exported.
+from ._isosurface import Isosurface as Isosurface
+from ._samples import Samples as Samples
+from .contouring import contour as contour
+from .plugin import load_plugin as load_plugin
 
 __version__ = _library.version().decode()
 
-# Modules of compiled classes; each may be missing. They load VTK, so they are imported on demand.
+# What needs VTK, and the modules that have it. Each may be missing, and is imported on demand.
 _COMPILED = ("vtkScatteredIsopointFilters", "vtkScatteredIsopointRendering",
              "vtkScatteredIsopointRayTracing")
+_MODULES = {
+    "ray_trace": ("ray_tracing",),
+    **dict.fromkeys(("vtkIsopointSplatPolygons", "vtkScatteredIsopointFilter", "vtkScatteredIsosurfaceFilter"),
+                    (*_COMPILED, "_vtk")),
+    **dict.fromkeys(("vtkIsopointPolygonMapper", "vtkIsopointRayTracer", "vtkIsopointSplatMapper",
+                     "vtkScatteredContourFilter"), _COMPILED)}
 
-_NAMES = ["Isosurface", "Samples", "contour", "load_plugin"]
-
-
-def __getattr__(name: str) -> Any:
-    if name == "__all__":
-        return _NAMES + _classes()
-    if name.startswith("vtk") or name == "ray_trace":
-        modules = ["ray_tracing"] if name == "ray_trace" else [*_COMPILED, "_vtk"]
-        for module in map(_module, modules):
+if TYPE_CHECKING:
+    ray_trace: Any
+    vtkIsopointPolygonMapper: Any
+    vtkIsopointRayTracer: Any
+    vtkIsopointSplatMapper: Any
+    vtkIsopointSplatPolygons: Any
+    vtkScatteredContourFilter: Any
+    vtkScatteredIsopointFilter: Any
+    vtkScatteredIsosurfaceFilter: Any
+else:
+    def __getattr__(name):
+        if name == "__all__":
+            return ["Isosurface", "Samples", "contour", "load_plugin", *_found()]
+        if name not in _MODULES:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        for module in map(_module, _MODULES[name]):
             if hasattr(module, name):
                 return getattr(module, name)
-        raise AttributeError(f"There is no {name} here: install VTK (pip install vtk), or build this"
-                             " project with VTK, as its docs/installing.md says.")
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        # An AttributeError would lose its text in "from scatteredisopoints import ...".
+        if "_vtk" in _MODULES[name] and importlib.util.find_spec("vtkmodules") is None:
+            raise ImportError(f"{name} needs VTK: pip install vtk")
+        raise ImportError(f"{name} needs classes that are compiled for this interpreter's VTK: build this"
+                          " project with VTK or ParaView, as docs/installing.md in its source says.")
+
+    def __dir__():
+        return sorted({*globals(), *_found()})
 
 
-def __dir__() -> list[str]:
-    return sorted({*globals(), *_classes()})
-
-
-def _classes() -> list[str]:
-    """All compiled classes, and ray_trace() if there is a ray tracer."""
-    names = [name for module in map(_module, _COMPILED) for name in dir(module)
-             if name.startswith("vtk")]
-    if not names:
-        names = [name for name in dir(_module("_vtk")) if name.startswith(("vtkScattered", "vtkIsopoint"))]
-    return names + ["ray_trace"] * any("RayTracer" in name for name in names)
+def _found() -> list[str]:
+    """The names of _MODULES that are there."""
+    return [name for name, modules in _MODULES.items() if any(hasattr(_module(each), name) for each in modules)]
 
 
 def _module(module: str) -> Any:

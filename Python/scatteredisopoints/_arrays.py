@@ -70,8 +70,10 @@ def positions_of(array: Any) -> np.ndarray:
     """Positions with shape (n, 3), float32 or float64."""
     result = readable("positions", array)
     if result.ndim != 2 or result.shape[1] != 3:
-        raise ValueError(f"positions have the shape {result.shape}, not (n, 3): for samples in a"
-                         " plane append zeros")
+        remedy = ("pass positions.T" if result.ndim == 2 and len(result) == 3 else
+                  "for samples in a plane append zeros" if result.shape[1:] == (2,) else
+                  "pass three coordinates of each")
+        raise ValueError(f"positions have the shape {result.shape}, not (n, 3): {remedy}")
     return result if result.dtype.kind == "f" else result.astype(np.float64)
 
 

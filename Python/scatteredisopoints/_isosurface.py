@@ -27,8 +27,8 @@ class Isosurface:
     """All numeric arrays of the points by name: shape (n,) or (n, components)."""
 
     splat_shapes: Mapping[str, np.ndarray]
-    """What splats look like, as docs/properties.md describes: SplatAxis, shape (n, 3), and
-    SplatPolygon, (n, 40); empty if splats were not computed."""
+    """What splats look like: SplatAxis, shape (n, 3), and SplatPolygon, (n, 40), five numbers for each of eight
+    corners; empty if splats were not computed."""
 
     def __init__(
         self,
@@ -109,6 +109,8 @@ class Isosurface:
 
     def _splats(self, scale: float = 1.0, threads: Optional[int] = None, **callbacks: Any) -> Isosurface:
         """splats(). Callbacks are those of _library.Callbacks."""
+        if self.triangles is not None:
+            raise ValueError("Triangles have no splats: draw them as they are, or extract points.")
         if not self.splat_shapes or self.normals is None:
             raise ValueError("The surface has no splats: extract points with compute_splats and"
                              " compute_normals.")

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import atexit
 import ctypes
+import os
 import threading
 import weakref
 from ctypes import POINTER, byref, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint64, c_void_p
@@ -205,6 +206,12 @@ class Callbacks:
             self._report(fraction)
 
 
+def at_fork(call: Callable[[], None]) -> None:
+    """Registers a call in processes forked later."""
+    if hasattr(os, "register_at_fork"):
+        os.register_at_fork(after_in_child=call)
+
+
 class _Calls:
     """Counts running calls. Those of daemon threads must end before the interpreter: it aborts if it stops
     a thread within a callback, or one that prints an error."""
@@ -233,12 +240,20 @@ class _Calls:
             if cls.are_over():
                 raise SystemExit
 
+    @classmethod
+    def forget(cls) -> None:
+        """Forgets the calls of other threads, which a forked process lacks."""
+        cls.changed, cls.count, cls.last_thread = threading.Condition(), 0, None
+
+
+at_fork(_Calls.forget)
+
 
 @atexit.register
 def _end_calls() -> None:
     with _Calls.changed:
         _Calls.last_thread = threading.get_ident()
-        _Calls.changed.wait_for(lambda: _Calls.count == 0, timeout=10.0)
+        _Calls.changed.wait_for(lambda: _Calls.count <= 0, timeout=10.0)
 
 
 def run(function: Any, *arguments: Any) -> None:

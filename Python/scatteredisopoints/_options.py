@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+import difflib
 import operator
+import re
 from typing import Any, Mapping, Optional
 
 import numpy as np
@@ -21,6 +23,7 @@ CONSTANTS = {
 _OF_POINTS = ("angle", "compute_splats", "minimum_spacing", "number_of_neighbors")
 _OF_TRIANGLES = ("regularize",)
 _NOT_OPTIONS = ("size", "triangles", "keep_tetrahedra")
+_PARAMETERS = ("arrays", "isovalues", "progress", "threads", "triangles")  # of contour(), which are no options
 
 
 def property_name(option: str) -> str:
@@ -38,15 +41,14 @@ def option_names(triangles: bool) -> list[str]:
 
 def constant(name: str, value: Any) -> Any:
     """The number of a named constant; other values unchanged. The projection None is NO_PROJECTION. Raises
-    ValueError if the option has no such constant."""
+    ValueError if the option has constants, but not this one."""
     if name == "projection" and value is None:
         value = "NO_PROJECTION"
-    if not isinstance(value, str):
+    if not isinstance(value, str) or name not in CONSTANTS:
         return value
-    number = CONSTANTS.get(name, {}).get(value.upper())
+    number = CONSTANTS[name].get(value.upper())
     if number is None:
-        known = ", ".join(CONSTANTS.get(name, {})) or "a number"
-        raise ValueError(f"{name} cannot be {value!r}: it is {known}")
+        raise ValueError(f"{name} cannot be {value!r}: it is {', '.join(CONSTANTS[name])}")
     return number
 
 
@@ -57,7 +59,7 @@ def make_options(triangles: bool, given: Mapping[str, Any]) -> Options:
     options.triangles = int(switch("triangles", triangles))
     for name, value in given.items():
         if name not in names:
-            raise TypeError(f"unknown option {name}; there are {', '.join(names)}")
+            raise _unknown_option(name, triangles)
         if name == "compute_scalars":
             switch(name, value)
         elif name == "keep_tree":
@@ -77,6 +79,19 @@ def thread_count(threads: Optional[int]) -> int:
     return min(operator.index(threads), 2**31 - 1)
 
 
+def _unknown_option(name: str, triangles: bool) -> TypeError:
+    if name in option_names(not triangles):
+        return TypeError(f"{name} is an option of {'points' if triangles else 'triangles'} only")
+    if name in ("contour_blocks", "use_all_cores"):
+        remedy = "call contour() for each block" if name == "contour_blocks" else "use threads"
+        return TypeError(f"{name} is a property of the filters alone: {remedy}")
+    names = option_names(triangles)
+    snake = re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower()
+    near = difflib.get_close_matches(snake, {*names, *_PARAMETERS} - {name}, 1)
+    hint = f"did you mean {near[0]}?" if near else f"there are {', '.join(names)}"
+    return TypeError(f"unknown option {name}: {hint}")
+
+
 def switch(name: str, value: Any) -> bool:
     """Raises ValueError unless the value is true or false, as a bool or a number."""
     if not isinstance(value, (bool, int, np.bool_, np.integer)) or value not in (0, 1):
@@ -89,7 +104,7 @@ def _number(name: str, value: Any, default: Any) -> Any:
     if name.startswith(("compute_", "drop_", "regularize")):
         return int(switch(name, value))
     try:
-        if isinstance(value, (bool, np.bool_)):
+        if isinstance(value, (bool, np.bool_, str)):
             raise TypeError
         number = float(value) if isinstance(default, float) else operator.index(value)
     except (TypeError, ValueError, OverflowError):

@@ -12,7 +12,7 @@ from typing import Any, Optional, Sequence, Union
 import numpy as np
 import pyvista as pv
 
-from . import _datasets
+from . import _datasets, _library
 from ._arrays import CELL, POINT
 from ._progress import Progress, shown_progress
 from ._samples import Samples
@@ -38,6 +38,7 @@ class ScatteredAccessor:
         rng: Optional[Sequence[float]] = None,
         preference: str = "point",
         progress_bar: bool = False,
+        threads: Optional[int] = None,
         **options: Any,
     ) -> pv.PolyData:
         """Extract isosurfaces from scattered samples.
@@ -59,6 +60,8 @@ class ScatteredAccessor:
             both.
         progress_bar : bool, default: False
             Display a progress bar, which requires tqdm or rich.
+        threads : int, optional
+            Maximum number of threads. By default all available cores.
         **options : dict, optional
             Options of :func:`scatteredisopoints.contour`, such as ``drop_gaps=False`` or
             ``regularize=False``.
@@ -70,9 +73,10 @@ class ScatteredAccessor:
 
         Notes
         -----
-        The tree is kept: further isosurfaces of the same data take a fraction of the time. Samples are
-        loaded again after changes of the data set or its scalars that PyVista notices, such as ``mesh["a"]
-        = ...`` or ``mesh.points[0] = ...``; call ``mesh.Modified()`` after other changes.
+        The tree is kept unless ``keep_tree=False``: further isosurfaces of the same data take a fraction of
+        the time. After changes of the data set or its scalars that PyVista notices, such as ``mesh["a"] =
+        ...`` or ``mesh.points[0] = ...``, values or samples are loaded again; call ``mesh.Modified()`` after
+        other changes.
 
         Examples
         --------
@@ -84,24 +88,27 @@ class ScatteredAccessor:
         >>> surface.is_manifold
         True
         """
-        samples = self._load(scalars, preference, progress_bar)
+        keeps = options.get("keep_tree", True)
+        samples = self._load(scalars, preference, progress_bar, threads, keeps)
         if isinstance(isosurfaces, (int, np.integer)) and not isinstance(isosurfaces, bool):
-            if isosurfaces < 0 or (rng is not None and len(rng) != 2):
-                raise ValueError("isosurfaces are a number, 0 or more, and rng has two values")
+            if isosurfaces < 0 or (rng is not None and np.shape(rng) != (2,)):
+                raise ValueError("isosurfaces are a number, 0 or more, and rng has two values, least and greatest")
             count = int(isosurfaces)
             isosurfaces = (np.linspace(*samples.range, count + 2)[1:-1].tolist() if rng is None
                            else np.linspace(rng[0], rng[1], count).tolist())
         surface = samples._contour(
-            isosurfaces, triangles, None, progress_bar, options, stacklevel=3)
+            isosurfaces, triangles, options.pop("arrays", None), threads, progress_bar, options, stacklevel=3)
         return surface.polydata
 
-    def splats(self, scale: float = 1.0) -> pv.PolyData:
+    def splats(self, scale: float = 1.0, *, threads: Optional[int] = None) -> pv.PolyData:
         """Turn isopoints into polygons that show them as a closed surface.
 
         Parameters
         ----------
         scale : float, default: 1.0
             Factor on the size of splats.
+        threads : int, optional
+            Maximum number of threads. By default all available cores.
 
         Returns
         -------
@@ -118,12 +125,12 @@ class ScatteredAccessor:
         >>> isopoints = cloud.scattered.contour([0.3], triangles=False)  # doctest: +SKIP
         >>> isopoints.scattered.splats().plot(smooth_shading=True)  # doctest: +SKIP
         """
-        polygons, problem = polygons_of(self._dataset, "Radius", 0.0, scale)
+        polygons, problem = polygons_of(self._dataset, "Radius", 0.0, scale, threads=threads)
         if problem:
             warnings.warn(problem, RuntimeWarning, stacklevel=2)
         return polygons
 
-    def _load(self, scalars: Any, preference: str, progress: Progress) -> Samples:
+    def _load(self, scalars: Any, preference: str, progress: Progress, threads: Optional[int], keeps: bool) -> Samples:
         data = self._dataset
         if not (data.IsA("vtkDataSet") or data.IsA("vtkCompositeDataSet")):
             raise TypeError(f"A {type(data).__name__} has no samples: make a pyvista.PolyData of its"
@@ -133,13 +140,19 @@ class ScatteredAccessor:
         if scalars is None:
             scalars, preference = _active_scalars(data)
         if not isinstance(scalars, str):
-            return _loaded(_datasets.samples_of(data, scalars), progress)
-        return _kept_samples(data, scalars, preference, progress)
+            return _loaded(_datasets.samples_of(data, scalars), progress, threads)
+        return _kept_samples(data, scalars, preference, progress, threads, keeps)
 
 
-def _loaded(samples: _datasets.DataSamples, progress: Progress) -> Samples:
+def _loaded(found: _datasets.DataSamples, progress: Progress, threads: Optional[int],
+            kept: Optional[Samples] = None) -> Samples:
+    """Samples of a data object, in the place of others, whose tree serves if the positions are the same."""
     with shown_progress(progress, "Loading samples") as report:
-        return Samples._of(samples, progress=report)
+        if kept is None:
+            return Samples._of(found, threads, progress=report)
+        kept._threads = threads
+        kept._take(found, progress=report)
+        return kept
 
 
 def _active_scalars(data: Any) -> tuple[str, str]:
@@ -158,16 +171,26 @@ _lock = threading.Lock()
 MOST_KEPT = 2
 
 
-def _kept_samples(data: Any, scalars: str, preference: str, progress: Progress) -> Samples:
-    """The samples of a data set; reuses those of the last call if unchanged."""
+@_library.at_fork
+def _renew_lock() -> None:
+    """A forked process lacks the thread that may hold it."""
+    global _lock
+    _lock = threading.Lock()
+
+
+def _kept_samples(data: Any, scalars: str, preference: str, progress: Progress, threads: Optional[int],
+                  keeps: bool) -> Samples:
+    """The samples of a data set; reuses those of the last call, or their tree. Keeps them for the next one if
+    wanted."""
     id_, key = id(data), (scalars, preference, _datasets.state_of(data))
     with _lock:
         kept = _kept.pop(id_, None)
-    if kept is not None and kept[0]() is data and kept[1] == key:
-        samples = kept[2]
-    else:
+    samples = kept[2] if kept is not None and kept[0]() is data else None
+    if samples is None or kept[1] != key:
         associations = (CELL, POINT) if preference == "cell" else (POINT, CELL)
-        samples = _loaded(_datasets.samples_of(data, scalars, associations), progress)
+        samples = _loaded(_datasets.samples_of(data, scalars, associations), progress, threads, samples)
+    if not keeps:
+        return samples
     with _lock:
         _kept[id_] = weakref.ref(data, lambda _: _kept.pop(id_, None)), key, samples
         while len(_kept) > MOST_KEPT:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import contextlib
 import threading
 import warnings
+import weakref
 from ctypes import byref, c_double, c_void_p
 from dataclasses import dataclass
 from typing import Any, Iterable, Iterator, Mapping, Optional, Union
@@ -71,21 +72,29 @@ class Samples:
             self._take(_datasets.samples_of(positions, values), progress=report)
 
     @classmethod
-    def _of(cls, samples: _datasets.DataSamples, **callbacks: Any) -> Samples:
+    def _of(cls, samples: _datasets.DataSamples, threads: Optional[int] = None, **callbacks: Any) -> Samples:
         """Makes Samples of a data object. Callbacks are those of _library.Callbacks."""
         created = cls.__new__(cls)
-        created._initialize(None)
+        created._initialize(threads)
         created._take(samples, **callbacks)
         return created
 
     def _initialize(self, threads: Optional[int]) -> None:
+        self._renew_lock()
+        _all.add(self)
+        self._threads = threads
+        self._range = (np.nan, np.nan)
+        self._skipped = 0
+        self._clear()
+
+    def _clear(self) -> None:
+        """Frees the samples and their tree."""
+        self._extractor = _library.Extractor(_library.create_extractor())
+        self._is_loaded = False
+
+    def _renew_lock(self) -> None:
         self._lock = threading.RLock()
         self._is_in_call = False
-        self._threads = threads
-        self._extractor = _library.Extractor(_library.create_extractor())
-        _library.run(_library.set_threads, self._extractor, thread_count(threads))
-        self._range = (np.nan, np.nan)
-        self._is_loaded = False
 
     def _take(self, samples: _datasets.DataSamples, **callbacks: Any) -> None:
         """Loads samples; keeps the tree if the positions are the same."""
@@ -114,8 +123,7 @@ class Samples:
     @property
     def skipped(self) -> int:
         """The number of samples skipped because they are not finite, masked or hidden."""
-        with self._exclusive():
-            return _library.get_skipped_count(self._extractor)
+        return self._skipped
 
     def replace_values(self, values: Any, *, progress: Progress = None) -> None:
         """Replaces the values of the samples, for a later time step, and keeps the tree.
@@ -148,9 +156,11 @@ class Samples:
             raise ValueError("There are no samples: the input has no points.")
         positions = positions_of(self._current("positions", self._positions))
         left_out = [each for each in (self._excluded, masked) if each is not None]
+        most_threads = thread_count(self._threads)
         with self._exclusive():
             self._is_loaded = False
             self._masked = masked
+            _library.run(_library.set_threads, self._extractor, most_threads)
             _library.run(_library.set_name, self._extractor, self._name.encode(errors="replace"))
             _library.run_with(
                 _library.Callbacks(**callbacks), self._extractor, _library.set_samples, positions, values,
@@ -158,6 +168,7 @@ class Samples:
             range_ = (2 * c_double)()
             _library.get_value_range(self._extractor, byref(range_))
             self._range = range_[0], range_[1]
+            self._skipped = _library.get_skipped_count(self._extractor)
             self._value_type = np.float32 if are_float and values.dtype == np.float32 else np.float64
             self._is_loaded = True
 
@@ -175,34 +186,43 @@ class Samples:
         *,
         triangles: bool = False,
         arrays: Optional[Mapping[str, Any]] = None,
+        threads: Optional[int] = None,
         progress: Progress = None,
         **options: Any,
     ) -> Isosurface:
         """Extracts isosurfaces: :func:`contour` describes parameters, result and errors.
 
-        Calls after the first one take a fraction of its time.
+        Calls after the first one take a fraction of its time. ``threads=None`` stands for the number that the
+        object was made with. ``keep_tree=False`` frees the samples: call :meth:`replace_values` before the
+        next isosurface.
         """
-        return self._contour(isovalues, triangles, arrays, progress, options, stacklevel=3)
+        return self._contour(isovalues, triangles, arrays, threads, progress, options, stacklevel=3)
 
-    def _contour(self, isovalues, triangles, arrays, progress, options, stacklevel) -> Isosurface:
+    def _contour(self, isovalues, triangles, arrays, threads, progress, options, stacklevel) -> Isosurface:
         with shown_progress(progress, "Contouring") as report:
-            extracted = self._extract(isovalues, triangles, arrays, options, progress=report)
+            extracted = self._extract(isovalues, triangles, arrays, options, threads, progress=report)
+        if not options.get("keep_tree", True):
+            with self._exclusive():
+                self._clear()
         for message in extracted.messages:
             warnings.warn(message.text, RuntimeWarning, stacklevel=stacklevel)
         return extracted.isosurface
 
-    def _extract(self, isovalues, triangles, arrays, options, **callbacks) -> Extracted:
-        """contour() without warnings. Callbacks are those of _library.Callbacks."""
+    def _extract(self, isovalues, triangles, arrays, options, threads=None, **callbacks) -> Extracted:
+        """contour() without warnings, and without keep_tree. Callbacks are those of _library.Callbacks."""
         if arrays is not None and self._arrays is not None:
             raise TypeError("arrays go with an array of positions: add them to the data set instead")
         chosen = make_options(triangles, options)
         levels = isovalues_of(isovalues)
         of_samples = further_arrays(arrays, len(self)) if self._arrays is None else self._arrays
+        threads = self._threads if threads is None else threads
+        most_threads = thread_count(threads)
         pointer = c_void_p()
         with self._exclusive():
             if not self._is_loaded:
-                raise ValueError("The samples have no values, since replacing them failed or was"
-                                 " interrupted: call replace_values().")
+                raise ValueError("The samples have no values, since replacing them failed or was interrupted, or"
+                                 " keep_tree was False: call replace_values().")
+            _library.run(_library.set_threads, self._extractor, most_threads)
             try:
                 _library.run_with(
                     _library.Callbacks(**callbacks), self._extractor, _library.extract,
@@ -231,8 +251,7 @@ class Samples:
             " it or switch the computed array off.", is_warning=True, cause=f"replaced array {name}")
             for name in computed if name in found]
         found.update(computed)
-        return Extracted(
-            self._as_isosurface(surface, found, chosen), surface, messages)
+        return Extracted(self._as_isosurface(surface, found, chosen, threads), surface, messages)
 
     def _interpolated(self, surface, of_samples: Mapping[str, Any]) -> dict[str, np.ndarray]:
         edges = _library.view(surface, _library.EDGES)
@@ -247,7 +266,7 @@ class Samples:
             _library.run(_library.interpolate, surface, array, found[name])
         return found
 
-    def _as_isosurface(self, surface, arrays, options: _library.Options) -> Isosurface:
+    def _as_isosurface(self, surface, arrays, options: _library.Options, threads: Optional[int]) -> Isosurface:
         triangles, shapes = None, {}
         if options.triangles:
             triangles = _library.view(surface, _library.TRIANGLES)
@@ -255,7 +274,17 @@ class Samples:
             shapes = {"SplatAxis": _library.view(surface, _library.SPLAT_AXES),
                       "SplatPolygon": _library.view(surface, _library.SPLAT_POLYGONS)}
         return Isosurface(_library.view(surface, _library.POINTS), triangles, arrays, shapes,
-                          self._maker, threads=self._threads)
+                          self._maker, threads=threads)
+
+
+_all: weakref.WeakSet[Samples] = weakref.WeakSet()
+
+
+@_library.at_fork
+def _renew_locks() -> None:
+    """A forked process lacks the threads that may hold them."""
+    for samples in _all:
+        samples._renew_lock()
 
 
 def _computed(surface: _library.Handle, options: _library.Options) -> dict[str, np.ndarray]:

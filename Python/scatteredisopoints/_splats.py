@@ -25,7 +25,8 @@ OCTAGON = np.stack([np.cos(_ANGLES), np.sin(_ANGLES), *np.zeros((3, 8))], axis=-
 
 
 def polygons_of(
-    data: Any, radius_array: Optional[str], radius: float, scale: float, **callbacks: Any
+    data: Any, radius_array: Optional[str], radius: float, scale: float, threads: Optional[int] = None,
+    **callbacks: Any,
 ) -> tuple[Any, str]:
     """The triangles that show the points of a data set, and a warning or ""; see vtkIsopointSplatPolygons.
     Callbacks are those of _library.Callbacks. Raises ValueError if the points have no normals."""
@@ -60,7 +61,7 @@ def polygons_of(
     isopoints = Isosurface(
         points, None, {**arrays, "Normals": normals.astype(np.float32), POINT_IDS: np.arange(len(points))},
         {"SplatAxis": axes.astype(np.float32), "SplatPolygon": polygons}, maker)
-    splats = isopoints._splats(scale, **callbacks)
+    splats = isopoints._splats(scale, threads, **callbacks)
     _add_cell_arrays(splats, data, cell_of_point)
     return splats.polydata, problem
 

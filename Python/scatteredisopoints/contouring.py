@@ -49,10 +49,15 @@ def contour(
         A function that is called with the share done, from 0 to 1; an exception in it ends the work. True:
         a bar, by tqdm or rich.
     **options
-        Properties of the filters in snake case, such as `drop_gaps=False`, `projection="CREASE_FIT"`,
-        `compute_gradients=True`. docs/properties.md lists them, and which apply only to points or to
-        triangles. With MPI, each process contours its own samples unless `controller` is given, which needs
-        the compiled VTK classes: then all ranks must make this call, and only the first one raises errors.
+        Properties of the filters in snake case: projection="CREASE_FIT" (or "CUBIC_FIT", the default,
+        "QUADRATIC_FIT", "LINEAR_FIT", None), drop_gaps=False, compute_gradients=True,
+        compute_projection_orders=True, compute_normals=False, compute_scalars=False, keep_tree=False,
+        normal_method="NORMALS_FROM_PLANES" (or "NORMALS_FROM_FIELD"),
+        output_points_precision="SINGLE_PRECISION" (or "DOUBLE_PRECISION"). Of points only: minimum_spacing=0.5,
+        compute_splats=False, angle=54.7, number_of_neighbors=12. Of triangles only: regularize=False.
+
+        With MPI, each process contours its own samples unless `controller` is given, which needs the compiled
+        VTK classes: then all ranks must make this call, and only the first one raises errors.
 
     Returns
     -------
@@ -92,12 +97,12 @@ def contour(
                                     isovalues_of(isovalues), triangles, arrays, progress, options)
         if controller is not None:
             raise TypeError("The option controller needs the compiled VTK classes: build this project"
-                            " with VTK, as its docs/installing.md says.")
+                            " with VTK, as docs/installing.md in its source says.")
     options.pop("controller", None)
     with shown_progress(progress, "Contouring") as report:
         samples = Samples(positions, values, threads=threads, progress=part(report, 0.0, 0.5))
         return samples._contour(
-            isovalues, triangles, arrays, part(report, 0.5, 1.0), options, stacklevel=3)
+            isovalues, triangles, arrays, None, part(report, 0.5, 1.0), options, stacklevel=3)
 
 
 def compiled_filters() -> Optional[Any]:

@@ -39,7 +39,7 @@ def ray_trace(
         Width and height in pixels; None: those of the view.
     options
         Other properties of vtkIsopointRayTracer in snake case, such as `ambient_light=0.3`.
-        docs/raytracing.md lists them.
+        The help of that class lists them.
 
     Returns
     -------

@@ -14,7 +14,11 @@
 #include <random>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
+
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace
 {
@@ -134,6 +138,20 @@ std::string bytesOf(const Surface& surface)
 void expectContains(const std::string& text, const std::string& part)
 {
   EXPECT_NE(text.find(part), std::string::npos) << text;
+}
+
+/// Expects that something holds in a forked process, which must not wait for ever.
+void expectInFork(const std::function<bool()>& holds)
+{
+  const pid_t process = fork();
+  if (process == 0)
+  {
+    alarm(60);
+    _exit(holds() ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(process, &status, 0);
+  EXPECT_EQ(status, 0);
 }
 
 /// Expects an error that names a word.
@@ -654,6 +672,46 @@ TEST(Library, TwoExtractorsWorkOnTwoThreads)
   std::for_each(threads.begin(), threads.end(), [](std::thread& thread) { thread.join(); });
   EXPECT_FALSE(bytes[0].empty());
   EXPECT_EQ(bytes[0], bytes[1]);
+}
+
+TEST(Library, ForkedProcessesMakeTheSameSurfaces)
+{
+  const Extractor extractor{ Cloud(20000) };
+  const Surface surface = extractor.extract();
+  ASSERT_EQ(isopoint_make_splat_mesh(surface.get(), 1.0), ISOPOINT_OK);
+  const std::string expected = bytesOf(surface);
+  expectInFork(
+    [&]()
+    {
+      const Surface again = extractor.extract();
+      return isopoint_make_splat_mesh(surface.get(), 1.0) == ISOPOINT_OK &&
+             isopoint_make_splat_mesh(again.get(), 1.0) == ISOPOINT_OK &&
+             bytesOf(surface) == expected && bytesOf(again) == expected;
+    });
+}
+
+TEST(Library, CallsFailInProcessesForkedDuringACall)
+{
+  const Cloud cloud;
+  const Extractor extractor(cloud);
+  bool hasForked = false;
+  const auto fork = [](void* user, double)
+  {
+    if (!std::exchange(*static_cast<bool*>(user), true))
+    {
+      expectInFork(
+        []()
+        {
+          const Extractor other;
+          return other.get() && Cloud().load(other.get()) == ISOPOINT_INVALID_ARGUMENT &&
+                 std::string(isopoint_get_error()).find("forked") != std::string::npos;
+        });
+    }
+  };
+  ASSERT_EQ(isopoint_set_callbacks(extractor.get(), fork, nullptr, &hasForked), ISOPOINT_OK);
+  ASSERT_EQ(cloud.load(extractor.get()), ISOPOINT_OK);
+  EXPECT_TRUE(hasForked);
+  extractor.extract();
 }
 
 TEST(Library, ErrorsAreThoseOfTheThread)

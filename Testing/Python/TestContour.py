@@ -5,6 +5,7 @@ import unittest
 import warnings
 
 import numpy as np
+import scatteredisopoints
 from scatteredisopoints import contour, vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
 from vtk_data import assert_same, blocks_of, centers_in, cloud_of, named, updated
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -144,6 +145,11 @@ class ContourTest(unittest.TestCase):
             self.same(contour(positions, values, isovalues), data, expected)
         for arguments in ((positions, values), (data, None)):
             self.assertEqual(len(contour(*arguments, range(1, 0))), 0)
+
+    def test_all_compiled_classes_are_exported(self):
+        modules = map(scatteredisopoints._module, scatteredisopoints._COMPILED)
+        classes = {name for module in modules for name in dir(module) if name.startswith("vtk")}
+        self.assertEqual(classes, {name for name in scatteredisopoints.__all__ if name.startswith("vtk")})
 
     def test_warnings_are_those_of_python(self):
         positions, values = samples()

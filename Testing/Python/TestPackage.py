@@ -6,9 +6,12 @@ import copy
 import ctypes
 import doctest
 import gc
+import importlib.util
+import inspect
 import os
 import pathlib
 import pickle
+import pydoc
 import re
 import signal
 import subprocess
@@ -183,6 +186,7 @@ class Arrays(unittest.TestCase):
         for arguments, error, text in (
                 ((positions[:, :2], values), ValueError, r"\(100, 2\).*\(n, 3\).*zeros"),
                 ((positions.ravel(), values), ValueError, r"\(300,\).*\(n, 3\)"),
+                ((positions.T, values), ValueError, r"\(3, 100\).*positions\.T"),
                 ((3.0, values), ValueError, r"\(\).*\(n, 3\)"),
                 ((positions, 3.0), ValueError, r"values.*\(\).*\(100,\)"),
                 ((positions, values[:99]), ValueError, r"\(99,\).*\(100,\)"),
@@ -207,7 +211,11 @@ class Arrays(unittest.TestCase):
                 (dict(triangles, regularize=2), ValueError, "regularize"),
                 (dict(angle=200.0), ValueError, "angle.*200.*180"), (dict(angle="wide"), ValueError, "angle"),
                 (dict(number_of_neighbors=2**32 + 12), ValueError, "range"),
-                (dict(drop_gaps=2), ValueError, "drop_gaps"),
+                (dict(drop_gaps=2), ValueError, "drop_gaps"), (dict(drop_gaps="yes"), ValueError, "True or False"),
+                (dict(triangle=True), TypeError, "did you mean triangles"),
+                (dict(DropGap=True), TypeError, "did you mean drop_gaps"),
+                (dict(angle=30.0, **triangles), TypeError, "angle is an option of points"),
+                (dict(contour_blocks=True), TypeError, "each block"), (dict(angle="30"), ValueError, "a number"),
                 *([] if contouring.compiled_filters() else [(dict(controller=object()), TypeError, "controller")])):
             with self.subTest(options=list(options)), self.assertRaisesRegex(error, text):
                 contour(positions, values, **options)
@@ -263,8 +271,10 @@ class Results(unittest.TestCase):
 
     def test_surfaces_without_splats(self):
         positions, values = cloud()
-        for options in (dict(triangles=True), dict(compute_splats=False), dict(compute_normals=False)):
-            with self.assertRaisesRegex(ValueError, "has no splats"):
+        for options, text in ((dict(triangles=True), "Triangles have no splats"),
+                              (dict(compute_splats=False), "has no splats"),
+                              (dict(compute_normals=False), "has no splats")):
+            with self.assertRaisesRegex(ValueError, text):
                 contour(positions, values, 0.3, **options).splats()
 
     def test_arrays_are_interpolated(self):
@@ -334,9 +344,20 @@ class Results(unittest.TestCase):
         self.assertEqual((points.points.shape, points.triangles), ((0, 3), None))
         self.assertEqual(len(contour(positions, values, [])), 0)
 
+    def test_messages_of_many_isovalues_are_short(self):
+        with self.assertWarns(RuntimeWarning) as caught:
+            contour(*cloud(100), np.arange(2.0, 5002.0))
+        self.assertRegex(str(caught.warning), "No isosurface at 2, 3, .*and 4990 more: the array is from")
+        self.assertLess(len(str(caught.warning)), 500)
+
     def test_docstrings(self):
         for owner in (contouring, scatteredisopoints._samples):
             self.assertEqual(doctest.testmod(owner).failed, 0)
+        for triangles in (False, True):
+            for name in _options.option_names(triangles):
+                self.assertIn(name + "=", contour.__doc__)
+        for owner in (contour, Samples, Isosurface, scatteredisopoints.load_plugin):
+            self.assertNotRegex(pydoc.render_doc(owner), r"docs/|\.md\b")  # which the wheel lacks
 
 
 class KeptTrees(unittest.TestCase):
@@ -349,6 +370,28 @@ class KeptTrees(unittest.TestCase):
             for triangles in (False, True):
                 self.assertEqual(contents(samples.contour(isovalue, triangles=triangles)),
                                  contents(contour(positions, values, isovalue, triangles=triangles)))
+
+    def test_samples_take_the_parameters_of_contour(self):
+        parameters, those_of_samples = (set(inspect.signature(function).parameters)
+                                        for function in (contour, Samples.contour))
+        self.assertEqual(those_of_samples - {"self"}, parameters - {"positions", "values"})
+        samples = Samples(*cloud(), threads=2)
+        expected = contents(samples.contour(0.3))
+        self.assertEqual(contents(samples.contour(0.3, threads=1)), expected)
+        with self.assertRaisesRegex(ValueError, "threads are 0"):
+            samples.contour(0.3, threads=0)
+
+    def test_samples_are_freed_on_request(self):
+        positions, values = cloud()
+        samples = Samples(positions, values)
+        tree = weakref.ref(samples._extractor)
+        surface = samples.contour(0.3, keep_tree=False)
+        self.assertIsNone(tree())
+        self.assertEqual((samples.range, samples.skipped), ((values.min(), values.max()), 0))
+        with self.assertRaisesRegex(ValueError, "keep_tree was False: call replace_values"):
+            samples.contour(0.3)
+        samples.replace_values(values)
+        self.assertEqual(contents(samples.contour(0.3)), contents(surface))
 
     def test_values_are_replaced(self):
         positions, values = cloud()
@@ -577,6 +620,40 @@ class Interruptions(unittest.TestCase):
         self.assertEqual(status, 0)
         self.assertEqual(contents(samples.contour(0.3)), expected[0])
 
+    @unittest.skipUnless(hasattr(os, "fork"), "there is no fork()")
+    def test_children_forked_during_a_call(self):
+        positions, values = cloud(50000)
+        samples = Samples(positions, values)
+        surface = samples.contour(0.3)
+        is_inside, may_go_on = threading.Event(), threading.Event()
+
+        def wait(_):
+            is_inside.set()
+            may_go_on.wait()
+
+        thread = threading.Thread(target=lambda: samples.contour(0.3, progress=wait))
+        thread.start()
+        is_inside.wait()
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", DeprecationWarning)
+            child = os.fork()
+        if child == 0:
+            signal.alarm(60)
+            refused = 0
+            for call in (lambda: samples.contour(0.3), lambda: contour(positions, values, 0.3), surface.splats):
+                with contextlib.suppress(ValueError):
+                    call()
+                    continue
+                refused += 1
+            del samples, surface
+            _library._Calls.changed.wait_for = lambda is_over, timeout: is_over() or os._exit(2)
+            _library._end_calls()
+            os._exit(0 if refused == 3 else 1)
+        _, status = os.waitpid(child, 0)
+        may_go_on.set()
+        thread.join()
+        self.assertEqual(status, 0)
+
 
 class Imports(unittest.TestCase):
     def test_import_loads_no_other_package(self):
@@ -588,11 +665,24 @@ class Imports(unittest.TestCase):
 
     def test_names(self):
         self.assertRegex(scatteredisopoints.__version__, r"^\d+\.\d+\.\d+$")
-        self.assertLessEqual({"contour", "Samples", "Isosurface"}, set(dir(scatteredisopoints)))
-        with self.assertRaisesRegex(AttributeError, "no attribute 'nothing'"):
-            scatteredisopoints.nothing
-        with self.assertRaisesRegex(AttributeError, "There is no vtkNothing here: install VTK"):
-            scatteredisopoints.vtkNothing
+        names = set(scatteredisopoints.__all__)
+        self.assertLessEqual({"contour", "Samples", "Isosurface", "load_plugin"}, names)
+        self.assertLessEqual(names, set(dir(scatteredisopoints)))
+        imported = {}
+        exec("from scatteredisopoints import *", imported)
+        self.assertLessEqual(names, set(imported))
+        for name in ("nothing", "vtkNothing"):
+            with self.assertRaisesRegex(AttributeError, f"no attribute '{name}'"):
+                getattr(scatteredisopoints, name)
+
+    def test_names_that_are_missing_say_what_they_need(self):
+        has_vtk = importlib.util.find_spec("vtkmodules") is not None
+        for name in set(scatteredisopoints._MODULES) - set(scatteredisopoints.__all__):
+            is_in_python = not has_vtk and name in (
+                "vtkIsopointSplatPolygons", "vtkScatteredIsopointFilter", "vtkScatteredIsosurfaceFilter")
+            with self.assertRaisesRegex(ImportError, f"{name} needs " + (
+                    "VTK: pip install vtk$" if is_in_python else "classes that are compiled")):
+                exec(f"from scatteredisopoints import {name}")
 
 
 def run_together(*functions):

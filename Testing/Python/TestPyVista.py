@@ -79,6 +79,8 @@ class Accessor(unittest.TestCase):
         self.assertEqual(len(np.unique(data.scattered.contour(3, "count")["count"])), 3)
         with self.assertRaisesRegex(ValueError, "rng has two values"):
             data.scattered.contour(3, rng=(1, 2, 3))
+        with self.assertRaisesRegex(ValueError, "rng has two values"):
+            data.scattered.contour(3, rng=5)
 
     def test_all_kinds_of_data(self):
         image = grid()
@@ -125,7 +127,7 @@ class Accessor(unittest.TestCase):
         samples = self.samples_of(data)
         self.assertIs(self.samples_of(data, 0.2), samples)
         data["distance"][:100] = 5.0
-        self.assertIsNot(self.samples_of(data), samples)
+        self.assertIs(self.samples_of(data), samples)  # only values are replaced
         changed = data.scattered.contour([0.3])
         self.assertEqual(changed.n_points, contour(
             np.asarray(data.points), np.asarray(data["distance"]), 0.3, triangles=True).points.shape[0])
@@ -154,6 +156,16 @@ class Accessor(unittest.TestCase):
         gc.collect()
         self.assertEqual(sum(tree() is not None for tree in trees), 0)
 
+    def test_threads_and_freed_trees(self):
+        data = cloud()
+        expected = data.scattered.contour([0.3], threads=1)
+        self.assertIn(id(data), _pyvista._kept)
+        for _ in range(2):
+            np.testing.assert_array_equal(data.scattered.contour([0.3], keep_tree=False).points, expected.points)
+            self.assertNotIn(id(data), _pyvista._kept)
+        with self.assertRaisesRegex(ValueError, "threads are 0"):
+            data.scattered.contour([0.3], threads=0)
+
     def test_splats_of_other_data(self):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -178,7 +190,8 @@ class Accessor(unittest.TestCase):
                 (pv.Table(np.zeros((3, 2))), [], {}, TypeError, "Table"), (data, ["speed"], {}, ValueError, "speed"),
                 (data, ["place"], {}, ValueError, "3 components"),
                 (data, [np.zeros(3)], {}, ValueError, "3 values.*20000"),
-                (pv.PolyData(data.points), [], {}, ValueError, "scalars"), (data, [], dict(gaps=1), TypeError, "gaps")):
+                (pv.PolyData(data.points), [], {}, ValueError, "scalars"), (data, [], dict(gaps=1), TypeError, "gaps"),
+                (data, [], dict(arrays={"a": data["count"]}), TypeError, "add them to the data set")):
             with self.assertRaisesRegex(error, text):
                 source.scattered.contour([0.3], *arguments, **options)
 

@@ -96,16 +96,50 @@ def check_results(environment, expected):
                  " extractions differ from those of the compiled filters")
 
 
+def examples(*languages):
+    """The blocks of the documents in some languages: "py" is for PyVista, "python" for VTK and NumPy."""
+    return [code for path in (ROOT / "README.md", ROOT / "docs/python.md")
+            for language, _, code in markdown_document.Document(str(path)).blocks if language in languages]
+
+
 def run_examples(environment, language):
-    """The blocks of the documents in a language: "py" is for PyVista, "python" for VTK and NumPy."""
-    count = 0
-    for path in (ROOT / "README.md", ROOT / "docs/python.md"):
-        for found, _, code, setup in markdown_document.Document(str(path)).blocks:
-            if found == language:
-                before = (ROOT / setup).read_text() if setup.endswith(".py") else setup
-                environment.run("-W", "error::RuntimeWarning", "-c", before + "\n" + code, **DRAWING)
-                count += 1
-    return count
+    """Each block in an interpreter of its own, as if pasted."""
+    for code in examples(language):
+        printed = environment.run("-W", "error::RuntimeWarning", "-c", code, **DRAWING)
+        if "Warning: vtk" in printed:
+            sys.exit(f"failed: an example warns\n{code}\n{printed}")
+    return len(examples(language))
+
+
+def check_types(environment):
+    """Type checkers accept the documents' blocks and all names of the package, and find wrong names."""
+    names = environment.run("-c", "import scatteredisopoints as s; print(*s._MODULES, 'Samples', 'load_plugin')").split()
+    imports = f"from scatteredisopoints import {', '.join(names)}\n"
+    wrong = ("from scatteredisopoints import contuor\n",
+             "from scatteredisopoints import contour\ncontour([], [], 0.3).colors\n")
+    paths = []
+    for number, code in enumerate([imports, *examples("python", "py"), *wrong]):
+        paths.append(environment.folder / f"example{number}.py")
+        paths[-1].write_text(code)
+    right = paths[:-len(wrong)]
+    for checker in (["-m", "mypy", "--strict"], ["-m", "pyright", "--pythonpath", environment.python]):
+        environment.run(*checker, *right)
+        for path in paths[len(right):]:
+            command = [str(word) for word in (environment.python, *checker, path)]
+            found = subprocess.run(command, env=clean_environment(), stdout=subprocess.PIPE, text=True)
+            if found.returncode != 1 or not ("contuor" in found.stdout or "colors" in found.stdout):
+                sys.exit(f"failed: {checker[1]} accepts {path.read_text()}{found.stdout}")
+
+
+def check_picture(environment, expected):
+    """The picture that README's first block has made is the one below it, but for a renderer's rounding."""
+    difference = float(environment.run(
+        "-c", "import sys, numpy as np, pyvista as pv\n"
+        "a, b = (np.asarray(pv.read(path).active_scalars, float) for path in sys.argv[1:])\n"
+        "print(np.abs(a - b).mean() if a.shape == b.shape else np.inf)", environment.folder / expected.name, expected))
+    if difference > 1:
+        sys.exit(f"failed: {environment.folder / expected.name} differs from {expected} by {difference} of 255: look at"
+                 " it, and copy it if it is right")
 
 
 def main(folder, wheel=None):
@@ -129,7 +163,7 @@ def main(folder, wheel=None):
 
     newest = max(version for version in pythons if version >= (3, 10))
     environment = Environment(folder / "vtk", pythons[newest], wheel, "vtk")
-    environment.run(TESTS / "TestPackage.py", "Results", "KeptTrees")
+    environment.run(TESTS / "TestPackage.py", "Results", "KeptTrees", "Imports")
     environment.run(TESTS / "TestFilters.py")
     check_results(environment, expected)
     examples = run_examples(environment, "python")
@@ -140,6 +174,10 @@ def main(folder, wheel=None):
         print(f"{environment.describe()}: PyVista on {backend} passed")
     environment.run(ROOT / "Examples/pyvista_cloud.py", **DRAWING)
     print(f"{run_examples(environment, 'py')} examples of the documents ran")
+    check_picture(environment, ROOT / "docs/surface.png")
+    environment.run("-m", "pip", "install", "--quiet", "mypy", "pyright[nodejs]")
+    check_types(environment)
+    print(f"{environment.describe()}: mypy and pyright passed")
 
 
 if __name__ == "__main__":
