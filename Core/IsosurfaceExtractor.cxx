@@ -1,10 +1,48 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/IsosurfaceExtractor.h"
 
+#include <cmath>
 #include <limits>
 
 namespace isopoint
 {
+
+namespace
+{
+
+Vector scaled(const Vector& vector, int exponent)
+{
+  return { std::ldexp(vector[0], exponent), std::ldexp(vector[1], exponent),
+    std::ldexp(vector[2], exponent) };
+}
+
+/// Multiplies the lengths that the output has by 2^exponent.
+void multiplyLengths(const Execution& execution, ExtractedIsosurface& result, int exponent)
+{
+  if (exponent == 0)
+  {
+    return;
+  }
+  const auto change = [&execution](auto& elements, const auto& changeOne)
+  { forEachIndex(execution, elements.size(), [&](std::size_t i) { changeOne(elements[i]); }); };
+  const auto multiply = [exponent](Vector& vector) { vector = scaled(vector, exponent); };
+  change(result.surface.positions, multiply);
+  change(result.surface.decreasingEdges, multiply);
+  change(result.surface.fits,
+    [&](LocalFit& fit)
+    {
+      multiply(fit.position);
+      fit.gradient = scaled(fit.gradient, -exponent);
+    });
+  change(result.splats,
+    [&](Splat& splat)
+    {
+      multiply(splat.axis);
+      splat.radius = std::ldexp(splat.radius, exponent);
+    });
+}
+
+} // namespace
 
 void IsosurfaceExtractor::clear()
 {
@@ -50,8 +88,18 @@ ExtractedIsosurface IsosurfaceExtractor::extract(
   const Execution& execution, const ExtractionRequest& request, ExtractedIsosurface* ghosts)
 {
   const Execution rising = withRisingProgress(execution);
-  ExtractedIsosurface result = std::visit([&](auto& cloud)
-    { return extractFromCloud(rising, cloud, this->ItemCount, this->Processes, request, ghosts); },
+  ExtractedIsosurface result = std::visit(
+    [&](auto& cloud)
+    {
+      ExtractedIsosurface found =
+        extractFromCloud(rising, cloud, this->ItemCount, this->Processes, request, ghosts);
+      multiplyLengths(execution, found, cloud.exponent);
+      if (ghosts)
+      {
+        multiplyLengths(execution, *ghosts, cloud.exponent);
+      }
+      return found;
+    },
     this->Held);
   execution.progress(1.0);
   return result;

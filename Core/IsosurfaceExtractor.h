@@ -10,7 +10,9 @@
 #include "Core/Tetrahedra/KeptTetrahedra.h"
 #include "Core/Tree/Loading.h"
 #include "Core/Tree/SampleTree.h"
+#include "Core/Tree/Scaling.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -32,6 +34,9 @@ struct SampleCloud
   std::vector<std::uint64_t> begins; // see SharedTree; only on ranks
   /// Of the last triangles, if worth the memory.
   std::unique_ptr<KeptTetrahedra> keptTetrahedra = nullptr;
+  /// Positions are those of the input divided by 2^exponent: see scaleExponent(). The same on all
+  /// ranks.
+  int exponent = 0;
 };
 
 /// IsosurfaceExtractor::extract() for one layout, each of which is compiled in its own file.
@@ -67,13 +72,11 @@ public:
     this->clear();
     if (isNarrow(count))
     {
-      using TSample = SampleFor<TCoordinate, TValue>;
-      this->Held = SampleCloud<TSample>{ loadSamples<TSample>(execution, count, read), {}, {} };
+      this->loadAlone<SampleFor<TCoordinate, TValue>>(execution, count, read);
     }
     else
     {
-      this->Held =
-        SampleCloud<WideSample>{ loadSamples<WideSample>(execution, count, read), {}, {} };
+      this->loadAlone<WideSample>(execution, count, read);
     }
     this->ItemCount = count;
     execution.progress(1.0);
@@ -154,6 +157,17 @@ public:
 
 private:
   template <class TSample, class Reader>
+  void loadAlone(const Execution& execution, std::size_t count, const Reader& read)
+  {
+    SampleCloud<TSample> cloud{ loadSamples<TSample>(execution, count, read), {}, {} };
+    const double greatest = greatestCoordinate(cloud.tree);
+    cloud.exponent =
+      isOutOfScale<TSample>(greatest) ? scaleExponent(greatest, medianExponent(cloud.tree)) : 0;
+    dividePositions(execution, cloud.tree, cloud.exponent);
+    this->Held = std::move(cloud);
+  }
+
+  template <class TSample, class Reader>
   void loadShared(const Execution& execution, ProcessGroup& processes,
     const std::vector<std::uint64_t>& counts, std::uint64_t all, const Reader& read)
   {
@@ -161,10 +175,34 @@ private:
     const auto first = std::accumulate(counts.begin(), own, std::uint64_t{ 0 });
     SampleTree<TSample> loaded = loadSamples<TSample>(
       partOf(execution, 0.0, 0.5), static_cast<std::size_t>(*own), read, first);
+    const int exponent = exponentOfAll(processes, loaded);
+    dividePositions(execution, loaded, exponent);
     this->Positions = hashOfSamples(execution, loaded.samples, first);
     SharedTree<TSample> shared = SharedTreeBuilder<TSample>(processes, std::move(loaded), all)
                                    .build(partOf(execution, 0.5, 1.0));
-    this->Held = SampleCloud<TSample>{ std::move(shared.tree), {}, std::move(shared.begins) };
+    this->Held = SampleCloud<TSample>{ std::move(shared.tree), {}, std::move(shared.begins),
+      nullptr, exponent };
+  }
+
+  /// The exponent for the samples of all ranks. Collective.
+  template <class TSample>
+  static int exponentOfAll(ProcessGroup& processes, const SampleTree<TSample>& own)
+  {
+    if (std::is_same_v<typename TSample::Coordinate, float>)
+    {
+      return 0;
+    }
+    const double greatest = fromOrderedKey(processes.maximum(orderedKey(greatestCoordinate(own))));
+    if (!isOutOfScale<TSample>(greatest))
+    {
+      return 0;
+    }
+    const std::vector<std::uint64_t> counts = processes.gather(std::uint64_t{ own.samples.size() });
+    const std::vector<std::uint64_t> medians =
+      processes.gather(orderedKey(static_cast<double>(medianExponent(own))));
+    const auto largest = std::max_element(counts.begin(), counts.end()) - counts.begin();
+    return scaleExponent(
+      greatest, static_cast<int>(fromOrderedKey(medians[static_cast<std::size_t>(largest)])));
   }
 
   static bool isNarrow(std::size_t count) { return count < std::size_t{ 1 } << 30; }
@@ -177,7 +215,7 @@ private:
     {
       return false;
     }
-    if (!this->holdsPositions(execution, cloud->tree, count, read))
+    if (!this->holdsPositions(execution, *cloud, count, read))
     {
       return false;
     }
@@ -203,16 +241,16 @@ private:
 
   /// Whether the tree holds exactly the items in use, at their positions. Collective.
   template <class TSample, class Reader>
-  bool holdsPositions(const Execution& execution, const SampleTree<TSample>& tree,
+  bool holdsPositions(const Execution& execution, const SampleCloud<TSample>& cloud,
     std::size_t count, const Reader& read)
   {
     const std::size_t loaded =
       this->Processes ? this->ItemCounts[static_cast<std::size_t>(this->Processes->rank())]
                       : this->ItemCount;
     const std::uint64_t positions =
-      this->Processes ? this->Positions : hashOfSamples(execution, tree.samples, 0);
-    const bool isSame =
-      count == loaded && hashOfItems<TSample>(execution, count, read) == positions;
+      this->Processes ? this->Positions : hashOfSamples(execution, cloud.tree.samples, 0);
+    const bool isSame = count == loaded && hashOfItems<TSample>(execution, count,
+                                             dividedReader(read, cloud.exponent)) == positions;
     return this->Processes ? !this->Processes->isAny(!isSame) : isSame;
   }
 

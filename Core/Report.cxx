@@ -5,6 +5,7 @@
 #include "Core/IsosurfaceExtractor.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iomanip>
 #include <iterator>
@@ -223,6 +224,19 @@ Message describeCornersApart(const Report& report)
       " Extract triangles instead: with Scattered Isosurface, in Python with triangles=True." };
 }
 
+Message describeBeyondFloat(const Report& report)
+{
+  if (report.beyondFloat == 0)
+  {
+    return {};
+  }
+  return { "points beyond float of " + report.array + ": " +
+             tenths(report.beyondFloat, report.pointCount()),
+    "Positions or splats of " + std::to_string(report.beyondFloat) + " of " +
+      std::to_string(report.pointCount()) +
+      " points overflow float, the type of their arrays. Choose another unit of length." };
+}
+
 std::vector<Message> describeReplacedArrays(const Report& report)
 {
   std::vector<Message> messages;
@@ -254,6 +268,7 @@ Report::Report(const Options& options, const std::vector<double>& sortedIsovalue
   , points(sortedIsovalues.size(), 0)
   , areTriangles(options.triangles)
   , areProjected(options.projection != 0)
+  , areSinglePoints(isSinglePrecision(options, false))
 {
 }
 
@@ -278,6 +293,16 @@ void Report::countSurface(std::size_t isovalue, const ExtractedIsosurface& surfa
   this->droppedInGaps += surface.droppedInGaps;
   const auto isHere = [&](std::size_t i)
   { return surface.areGhosts.empty() || !surface.areGhosts[i]; };
+  using Float = std::numeric_limits<float>;
+  for (std::size_t i = 0; i < surface.surface.size(); ++i)
+  {
+    const Vector& p = surface.surface.positions[i];
+    const double farthest = std::max({ std::abs(p[0]), std::abs(p[1]), std::abs(p[2]) });
+    const double radius = surface.splats.empty() ? 0.0 : surface.splats[i].radius;
+    const bool isBeyond = (this->areSinglePoints && farthest > Float::max()) ||
+                          radius > Float::max() || (radius > 0.0 && radius < Float::min());
+    this->beyondFloat += isHere(i) && isBeyond ? 1 : 0;
+  }
   for (std::size_t i = 0; i < surface.splats.size(); ++i)
   {
     this->innerCorners += isHere(i) ? surface.splats[i].counts.inner : 0;
@@ -317,7 +342,7 @@ void Report::share(ProcessGroup& processes)
   processes.sum(this->points); // the number of isovalues is the same on all ranks
   for (std::uint64_t* const count :
     { &this->unprojectedPoints, &this->innerCorners, &this->cornersApart, &this->droppedInGaps,
-      &this->samples, &this->notFinite, &this->excluded, &this->withoutArray })
+      &this->beyondFloat, &this->samples, &this->notFinite, &this->excluded, &this->withoutArray })
   {
     *count = processes.sum(*count);
   }
@@ -337,6 +362,7 @@ std::vector<Message> describeReport(const Report& report, OptionNaming naming)
   messages.push_back(describeSkipped(report));
   messages.push_back(describeUnprojected(report, naming));
   messages.push_back(describeCornersApart(report));
+  messages.push_back(describeBeyondFloat(report));
   messages.push_back(describePieces(report));
   const std::vector<Message> replaced = describeReplacedArrays(report);
   messages.insert(messages.end(), replaced.begin(), replaced.end());

@@ -45,11 +45,13 @@ struct Report
   std::vector<std::uint64_t> points;          // by isovalue
   bool areTriangles = false;                  // whether points are connected
   bool areProjected = false;                  // whether fits were to move points
+  bool areSinglePoints = false;               // whether positions become float
   bool contoursBlocks = false;                // whether each block is its own cloud
   std::uint64_t unprojectedPoints = 0;        // not moved by a fit
   std::uint64_t innerCorners = 0;             // of splats, see SplatCornerCounts
   std::uint64_t cornersApart = 0;             // corners that meet no others
   std::uint64_t droppedInGaps = 0;            // dropped edges or tetrahedra
+  std::uint64_t beyondFloat = 0;              // points with a position or radius that float lacks
   std::uint64_t samples = 0;                  // all, including skipped ones
   std::uint64_t notFinite = 0;                // samples with such a coordinate or value
   std::uint64_t excluded = 0;                 // samples left out by the caller, such as ghosts

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One surface across the levels of an adaptive grid, between whose blocks Contour leaves cracks:
-pvbatch amr_levels.py"""
+pvbatch amr_levels.py
+
+Needs the compiled plugin, loaded by PV_PLUGIN_PATH or the Debian package."""
 
 from paraview.simple import *
 

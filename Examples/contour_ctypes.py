@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Contours samples with Python's standard library alone: contour_ctypes.py LIBRARY
 
-LIBRARY is the path of the C library, libisopoint.so. isopoint.h describes its functions.
+LIBRARY is the path of the C library, libisopoint.so, which any installation of this project has. isopoint.h
+describes its functions.
 """
 
 import array

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A table of readings as the surface of a plume, colored by another column: pvbatch csv_table.py"""
+"""A table of readings as the surface of a plume, colored by another column: pvbatch csv_table.py
+
+Needs the compiled plugin, loaded by PV_PLUGIN_PATH or the Debian package."""
 
 import numpy as np
 from paraview.simple import *

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # script-version: 2.0
-"""A Catalyst pipeline: the surface of a simulation's particles, drawn each step."""
+"""A Catalyst pipeline: the surface of a simulation's particles, drawn each step.
+
+Needs the compiled plugin, loaded by PV_PLUGIN_PATH or the Debian package."""
 
 from paraview import catalyst
 from paraview.simple import *

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A simulation of particles that runs the Catalyst pipeline of in_situ_pipeline.py each step:
-pvbatch in_situ_simulation.py, or mpirun -n 4 pvbatch --symmetric in_situ_simulation.py"""
+pvbatch in_situ_simulation.py, or mpirun -n 4 pvbatch --symmetric in_situ_simulation.py
+
+Needs the compiled plugin, loaded by PV_PLUGIN_PATH or the Debian package."""
 
 import os
 

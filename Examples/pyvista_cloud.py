@@ -4,6 +4,8 @@
 
 Contour samples that have no mesh, such as particles or readings of sensors, as PyVista contours grids.
 Writes pyvista_cloud.png.
+
+Needs the Python package and PyVista 0.48 or later, in any Python.
 """
 
 # %%

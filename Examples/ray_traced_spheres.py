@@ -2,7 +2,9 @@
 """A mirror and a glass sphere, ray-traced from points: python3 ray_traced_spheres.py
 
 Figure 11 of Rosenthal and Linsen's paper: the isosurfaces of two spheres in eight million samples
-each, a yellow mirror on the right, glass on the left."""
+each, a yellow mirror on the right, glass on the left.
+
+Needs the compiled classes, as in the Debian package, and the interpreter that they were built for."""
 
 import argparse
 

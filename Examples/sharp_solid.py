@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A machined part with sharp edges, from samples a little off a lattice: pvbatch sharp_solid.py"""
+"""A machined part with sharp edges, from samples a little off a lattice: pvbatch sharp_solid.py
+
+Needs the compiled plugin, loaded by PV_PLUGIN_PATH or the Debian package."""
 
 from paraview.simple import *
 

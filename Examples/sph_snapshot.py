@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Particles in NumPy arrays as the surface of a liquid: python3 sph_snapshot.py"""
+"""Particles in NumPy arrays as the surface of a liquid: python3 sph_snapshot.py
+
+Needs the compiled classes, as in the Debian package, and the interpreter that they were built for."""
 
 import numpy as np
 from scatteredisopoints import contour, vtkIsopointSplatMapper

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A wave through sensors that stay where they are, step by step: pvbatch time_series.py
 
-Positions are the same in each step, so that the filter keeps its tree and takes the new values alone."""
+Positions are the same in each step, so that the filter keeps its tree and takes the new values alone.
+
+Needs the compiled plugin, loaded by PV_PLUGIN_PATH or the Debian package."""
 
 from paraview.simple import *
 

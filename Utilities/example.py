@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Renders an isosurface of random samples of a gyroid with VTK alone. Writes splats.png."""
+"""Renders an isosurface of random samples of a gyroid with VTK alone. Writes splats.png.
+
+Needs the compiled classes, as in the Debian package, and the interpreter that they were built for."""
 
 import numpy as np
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, registers the rendering classes

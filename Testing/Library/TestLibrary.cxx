@@ -389,6 +389,36 @@ TEST(Library, AnEmptySurfaceIsExplained)
   isopoint_get_value_range(extractor.get(), nullptr);
 }
 
+TEST(Library, LengthsThatOverflowFloatAreExplained)
+{
+  const auto messageAt = [](double scale, const isopoint_options& options)
+  {
+    Cloud cloud;
+    for (double& coordinate : cloud.positions)
+    {
+      coordinate *= scale;
+    }
+    const Surface surface = Extractor(cloud).extract({ 0.7 }, options);
+    EXPECT_GT(arrayOf(surface, ISOPOINT_POINTS).count, 100);
+    const char* const message = isopoint_get_message(surface.get(), 0, nullptr);
+    return std::string(message ? message : "");
+  };
+  const auto single = optionsWith(
+    [](isopoint_options& options)
+    {
+      options.output_points_precision = ISOPOINT_PRECISION_SINGLE;
+      options.compute_splats = 0;
+    });
+  for (const double scale : { 1e-300, 1e300 })
+  {
+    expectContains(messageAt(scale, defaults), "overflow float");
+    EXPECT_EQ(messageAt(scale, withTriangles), "");
+  }
+  expectContains(messageAt(1e300, single), "overflow float");
+  EXPECT_EQ(messageAt(1e30, defaults), "");
+  EXPECT_EQ(messageAt(1e30, single), "");
+}
+
 TEST(Library, InvalidOptionsAreErrors)
 {
   const Extractor extractor((Cloud()));

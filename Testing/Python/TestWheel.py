@@ -8,9 +8,11 @@ that runs this can import. Ends with 77, which says that the test is skipped, if
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
+import tarfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TESTS = ROOT / "Testing/Python"
@@ -88,6 +90,25 @@ def built_wheel(builder, folder):
     return next(folder.glob("scatteredisopoints-*.whl"))
 
 
+def check_source_archive(builder, folder):
+    """It has no file of what users make beside the source, and its description no links to files."""
+    tree = folder / "source"
+    shutil.copytree(ROOT, tree, ignore=shutil.ignore_patterns(".git", "build*", "__pycache__", "env"))
+    (tree / "env").mkdir()
+    (tree / "env/file").write_text("")
+    builder.run("-m", "pip", "install", "--quiet", "scikit-build-core", "hatch-fancy-pypi-readme")
+    builder.run("-c", "import os, sys, scikit_build_core.build as build; os.chdir(sys.argv[1])\n"
+                "build.build_sdist(sys.argv[2])", tree, folder)
+    with tarfile.open(next(folder.glob("*.tar.gz"))) as archive:
+        names = {name.partition("/")[2] for name in archive.getnames()}
+        information = next(name for name in archive.getnames() if name.endswith("PKG-INFO"))
+        description = archive.extractfile(information).read().decode()
+    if "env/file" in names or not {"README.md", "Library/isopoint.h", "Utilities/wheel.sh"} <= names:
+        sys.exit(f"failed: the source archive has other files: {sorted(names)}")
+    if "## In Python" not in description or re.search(r"\]\((?!https:)", description):
+        sys.exit(f"failed: the description has links to files, or lacks a section\n{description}")
+
+
 def check_results(environment, expected):
     found = environment.run(TESTS / "extractions.py")
     different = sum(a != b for a, b in zip(found.splitlines(), expected.splitlines()))
@@ -113,7 +134,8 @@ def run_examples(environment, language):
 
 def check_types(environment):
     """Type checkers accept the documents' blocks and all names of the package, and find wrong names."""
-    names = environment.run("-c", "import scatteredisopoints as s; print(*s._MODULES, 'Samples', 'load_plugin')").split()
+    names = environment.run(
+        "-c", "import scatteredisopoints as s; print(*s._MODULES, 'Samples', 'load_plugin')").split()
     imports = f"from scatteredisopoints import {', '.join(names)}\n"
     wrong = ("from scatteredisopoints import contuor\n",
              "from scatteredisopoints import contour\ncontour([], [], 0.3).colors\n")
@@ -151,6 +173,7 @@ def main(folder, wheel=None):
     check_reachable(builder)
     wheel = pathlib.Path(wheel).resolve() if wheel else built_wheel(builder, folder)
     print(f"{wheel.name}: {wheel.stat().st_size / 1e6:.2f} MB")
+    check_source_archive(builder, folder)
     expected = run([sys.executable, TESTS / "extractions.py", "--filters"])
 
     for version, path in pythons.items():
