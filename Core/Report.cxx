@@ -325,8 +325,8 @@ void Report::add(const Report& other)
   std::transform(this->points.begin(), this->points.end(), other.points.begin(),
     this->points.begin(), std::plus<>());
   for (std::uint64_t Report::*const count : { &Report::unprojectedPoints, &Report::innerCorners,
-         &Report::cornersApart, &Report::droppedInGaps, &Report::samples, &Report::notFinite,
-         &Report::excluded, &Report::withoutArray })
+         &Report::cornersApart, &Report::droppedInGaps, &Report::beyondFloat, &Report::samples,
+         &Report::notFinite, &Report::excluded, &Report::withoutArray })
   {
     this->*count += other.*count;
   }
