@@ -12,7 +12,6 @@
 #include "Core/Tree/SampleTree.h"
 #include "Core/Tree/Scaling.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -162,7 +161,7 @@ private:
     SampleCloud<TSample> cloud{ loadSamples<TSample>(execution, count, read), {}, {} };
     const double greatest = greatestCoordinate(cloud.tree);
     cloud.exponent =
-      isOutOfScale<TSample>(greatest) ? scaleExponent(greatest, medianExponent(cloud.tree)) : 0;
+      isOutOfScale<TSample>(greatest) ? scaleExponent(greatest, countExponents(cloud.tree)) : 0;
     dividePositions(execution, cloud.tree, cloud.exponent);
     this->Held = std::move(cloud);
   }
@@ -197,12 +196,9 @@ private:
     {
       return 0;
     }
-    const std::vector<std::uint64_t> counts = processes.gather(std::uint64_t{ own.samples.size() });
-    const std::vector<std::uint64_t> medians =
-      processes.gather(orderedKey(static_cast<double>(medianExponent(own))));
-    const auto largest = std::max_element(counts.begin(), counts.end()) - counts.begin();
-    return scaleExponent(
-      greatest, static_cast<int>(fromOrderedKey(medians[static_cast<std::size_t>(largest)])));
+    std::vector<std::uint64_t> counts = countExponents(own);
+    processes.sum(counts);
+    return scaleExponent(greatest, counts);
   }
 
   static bool isNarrow(std::size_t count) { return count < std::size_t{ 1 } << 30; }

@@ -22,10 +22,10 @@
  *   isopoint_destroy_surface(surface);
  *   isopoint_destroy_extractor(extractor);
  *
- * Threads: use each extractor and each surface on one thread at a time. Different objects, including
- * an extractor and its surfaces, may be used on different threads at the same time. Results do not
- * depend on the number of threads. A process forked from one that used several threads uses one; in a
- * process forked during a call, all calls fail.
+ * Threads: use each extractor and each surface on one thread at a time. Different objects,
+ * including an extractor and its surfaces, may be used on different threads at the same time.
+ * Results do not depend on the number of threads. A process forked from one that used several
+ * threads uses one. In a process forked during a call, all calls fail.
  *
  * Errors: functions that can fail return an isopoint_status, and isopoint_get_error() returns the
  * cause and the remedy. Output pointers are written only on success. No function ends the program,

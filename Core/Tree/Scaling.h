@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numeric>
 #include <type_traits>
 #include <vector>
 
@@ -44,22 +47,35 @@ bool isOutOfScale(double greatest)
          std::abs(std::ilogb(greatest)) > harmless;
 }
 
-/// The median of the exponents of all positions: division by this power of two is exact, so that
-/// results are the same at any scale. Few samples far away do not matter. O(n)
+/// The samples by exponentOf(), from that of the least positive number on. O(n)
 template <class TSample>
-int medianExponent(const SampleTree<TSample>& tree)
+std::vector<std::uint64_t> countExponents(const SampleTree<TSample>& tree)
 {
-  std::vector<int> exponents(tree.samples.size());
-  std::transform(tree.samples.data(), tree.samples.data() + exponents.size(), exponents.begin(),
-    exponentOf<TSample>);
-  const auto middle = exponents.begin() + static_cast<std::ptrdiff_t>(exponents.size() / 2);
-  std::nth_element(exponents.begin(), middle, exponents.end());
-  return exponents.empty() ? 0 : *middle;
+  using Limits = std::numeric_limits<double>;
+  constexpr int least = Limits::min_exponent - Limits::digits; // of denormalized numbers
+  std::vector<std::uint64_t> counts(static_cast<std::size_t>(Limits::max_exponent - least));
+  for (std::size_t i = 0; i < tree.samples.size(); ++i)
+  {
+    ++counts[static_cast<std::size_t>(exponentOf(tree.samples[i]) - least)];
+  }
+  return counts;
 }
 
-/// The exponent of the power of two that divides positions which are out of scale.
-inline int scaleExponent(double greatest, int median)
+/// The exponent of the power of two by which positions that are out of scale are divided: the
+/// median of all, so that few samples far away do not matter. As division is exact, results are the
+/// same at any scale.
+/// @param greatest coordinate of all samples
+/// @param counts by exponent, of all samples
+inline int scaleExponent(double greatest, const std::vector<std::uint64_t>& counts)
 {
+  using Limits = std::numeric_limits<double>;
+  std::uint64_t below = std::accumulate(counts.begin(), counts.end(), std::uint64_t{ 0 }) / 2;
+  int median = Limits::min_exponent - Limits::digits;
+  for (auto count = counts.begin(); below >= *count; ++count)
+  {
+    below -= *count;
+    ++median;
+  }
   return greatest > 1.0 ? std::max(median, 0) : median; // the greatest does not overflow
 }
 

@@ -88,6 +88,29 @@ inline double planeBetween(double c, double d)
   return std::isfinite(plane) ? plane : 0.5 * c + 0.5 * d;
 }
 
+/// Section 2: positions divided by a power of two, if they are out of scale.
+inline clouds::Cloud inScale(const clouds::Cloud& cloud)
+{
+  double greatest = 0.0;
+  std::vector<int> exponents;
+  for (std::size_t id = 0; id < cloud.size(); ++id)
+  {
+    const Vector p = cloud.at(id);
+    const double largest = std::max({ std::abs(p[0]), std::abs(p[1]), std::abs(p[2]) });
+    exponents.push_back(largest > 0.0 ? std::ilogb(largest) : 0);
+    greatest = std::max(greatest, largest);
+  }
+  if (greatest == 0.0 || (greatest >= 0x1p-200 && greatest < 0x1p201))
+  {
+    return cloud;
+  }
+  std::sort(exponents.begin(), exponents.end());
+  const int median = exponents[exponents.size() / 2];
+  const int exponent = greatest > 1.0 ? std::max(median, 0) : median;
+  return clouds::moved(cloud, [exponent](double* p)
+    { std::for_each(p, p + 3, [=](double& c) { c = std::ldexp(c, -exponent); }); });
+}
+
 /// Section 3: the tree over all samples, coincident ones counted separately.
 class Tree
 {
@@ -323,7 +346,7 @@ inline double parameterOf(const Cell& i, const Cell& j, double isovalue)
 inline std::vector<Isopoint> extract(
   const clouds::Cloud& cloud, double isovalue, double angle, bool dropsGaps = false)
 {
-  const Tree tree(cloud);
+  const Tree tree(inScale(cloud));
   const std::vector<Cell>& cells = tree.cells;
   const auto neighbors = neighborhoods(cells);
   const auto isBelow = [&](std::size_t cell) { return cells[cell].value < isovalue; };

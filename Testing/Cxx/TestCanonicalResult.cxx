@@ -139,6 +139,13 @@ TEST(CanonicalResult, ExtremeCoordinates)
   {
     EXPECT_GT(compare(timesPositions(scale, cloud), { 0.3 }), 0u) << scale;
   }
+  for (const auto& [most, few] : { std::pair(1.0, 1e300), { 1e300, 1.0 }, { 1e-150, 1e150 } })
+  {
+    clouds::Cloud mixed = timesPositions(most, cloud);
+    std::for_each(mixed.positions.begin(), mixed.positions.begin() + 30,
+      [factor = few / most](double& coordinate) { coordinate *= factor; });
+    EXPECT_GT(compare(mixed, { 0.3 }), 0u) << most << few;
+  }
 }
 
 TEST(CanonicalResult, Tiny)
