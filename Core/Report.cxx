@@ -334,6 +334,7 @@ void Report::add(const Report& other)
   this->replacedArrays.insert(other.replacedArrays.begin(), other.replacedArrays.end());
   this->least = std::min(this->least, other.least);
   this->greatest = std::max(this->greatest, other.greatest);
+  this->areSinglePoints = this->areSinglePoints || other.areSinglePoints;
   this->contoursBlocks = true;
 }
 

@@ -165,6 +165,10 @@ class Accessor(unittest.TestCase):
             self.assertNotIn(id(data), _pyvista._kept)
         with self.assertRaisesRegex(ValueError, "threads are 0"):
             data.scattered.contour([0.3], threads=0)
+        points = data.scattered.contour([0.3], triangles=False)
+        np.testing.assert_array_equal(points.scattered.splats(threads=1).points, points.scattered.splats().points)
+        with self.assertRaisesRegex(ValueError, "threads are 0"):
+            points.scattered.splats(threads=0)
 
     def test_splats_of_other_data(self):
         with warnings.catch_warnings():
