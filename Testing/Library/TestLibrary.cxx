@@ -609,8 +609,8 @@ TEST(Library, SurfacesTakeOtherCallbacksAndThreads)
   for (const Surface* const surface : { &extracted, &kept })
   {
     Observed observed;
-    ASSERT_EQ(isopoint_set_surface_callbacks(surface->get(), observe, isCanceled, &observed),
-      ISOPOINT_OK);
+    ASSERT_EQ(
+      isopoint_set_surface_callbacks(surface->get(), observe, isCanceled, &observed), ISOPOINT_OK);
     ASSERT_EQ(isopoint_set_surface_threads(surface->get(), 1), ISOPOINT_OK);
     ASSERT_EQ(isopoint_make_splat_mesh(surface->get(), 1.0), ISOPOINT_OK);
     EXPECT_EQ(observed.fractions.back(), 1.0);
@@ -671,8 +671,8 @@ TEST(Library, MessagesAreJoined)
     surfaces.push_back(Extractor(cloud).extract({ 0.7, 10.7, 99.0 }));
   }
   const Surface& joined = surfaces[0];
-  const std::int64_t dropped = isopoint_get_dropped_count(surfaces[0].get()) +
-                               isopoint_get_dropped_count(surfaces[1].get());
+  const std::int64_t dropped =
+    isopoint_get_dropped_count(surfaces[0].get()) + isopoint_get_dropped_count(surfaces[1].get());
   ASSERT_EQ(isopoint_join_messages(joined.get(), surfaces[1].get()), ISOPOINT_OK);
   EXPECT_EQ(isopoint_get_dropped_count(joined.get()), dropped);
   const std::string outside = isopoint_get_message(joined.get(), 0, nullptr);
