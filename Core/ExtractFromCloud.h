@@ -53,12 +53,13 @@ template <class TSample>
 ExtractedIsosurface partOnRank(const Execution& execution, SharedRanks<TSample>& ranks,
   const SampleTree<TSample>& tree, const ExtractedIsosurface& all, int rings)
 {
-  std::vector<std::size_t> vertexRanks;
-  for (std::size_t vertex = 0; vertex < all.surface.size(); ++vertex)
-  {
-    const EdgeLeaves& leaves = all.surface.leaves[all.surface.edgeBegin(vertex)];
-    vertexRanks.push_back(ranks.ownerOf(firstPlaceOf(tree, leaves)));
-  }
+  std::vector<std::size_t> vertexRanks(all.surface.size());
+  forEachIndex(execution, vertexRanks.size(),
+    [&](std::size_t vertex)
+    {
+      const EdgeLeaves& leaves = all.surface.leaves[all.surface.edgeBegin(vertex)];
+      vertexRanks[vertex] = ranks.ownerOf(firstPlaceOf(tree, leaves));
+    });
   const auto rank = static_cast<std::size_t>(ranks.processes().rank());
   SurfacePart part = SurfacePartChoice(all.triangles, vertexRanks, rank).choose(rings);
   ExtractedIsosurface result = withSplats(execution, tree,
@@ -78,7 +79,6 @@ ExtractedIsosurface findTriangles(const Execution& execution, SampleCloud<TSampl
   TriangleExtraction<TSample, TRanks> extraction(
     execution, cloud.tree, ranks, cloud.neighborhoods, cloud.keptTetrahedra, request.isosurface);
   TriangleSurface found = extraction.extract();
-  throwIfAborted(execution);
   ExtractedIsosurface result;
   result.surface = std::move(found.vertices);
   result.triangles = std::move(found.triangles);

@@ -3,6 +3,7 @@
 
 #include "Core/Base/Execution.h"
 #include "Core/Base/ProcessGroup.h"
+#include "Core/Tree/BinaryIndex.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -16,6 +17,11 @@ namespace isopoint
 
 namespace
 {
+
+Failure outOfMemory()
+{
+  return { Failure::OutOfMemory, "Out of memory. Free memory or reduce the number of samples." };
+}
 
 Failure describe()
 {
@@ -35,16 +41,20 @@ Failure describe()
   {
     return { Failure::InvalidUsage, error.what() };
   }
-  catch (const std::bad_alloc&)
-  {
-    return { Failure::OutOfMemory, "Out of memory. Free memory or reduce the number of samples." };
-  }
-  catch (const std::length_error& error)
+  catch (const TreeTooLarge& error)
   {
     return { Failure::InvalidUsage, std::string("Cannot build the tree of the samples (") +
                                       error.what() +
                                       "). Merge coincident samples or reduce the number of"
                                       " samples." };
+  }
+  catch (const std::length_error&)
+  {
+    return outOfMemory(); // of lists that no memory could hold
+  }
+  catch (const std::bad_alloc&)
+  {
+    return outOfMemory();
   }
   catch (const std::exception& error)
   {

@@ -24,7 +24,7 @@ struct Failure
     Aborted,      // by the caller
     Elsewhere,    // only on another rank
     InvalidUsage, // of input or options
-    OutOfMemory,
+    OutOfMemory,  // or more than there can be
     Bug
   };
   Kinds kind = None;

@@ -150,7 +150,7 @@ public:
   /// calls. On ranks, each isopoint, and each triangle with its vertices, is returned on one rank.
   /// @param ghosts null, as for triangles, or receives the isopoints of other ranks within some
   /// rings around this rank's, with all data (docs/ranks.md). The same choice on all ranks
-  /// @throws std::bad_alloc, Aborted, std::length_error (see NarrowBand); later calls still work
+  /// @throws std::bad_alloc, Aborted, TreeTooLarge (see NarrowBand); later calls still work
   ExtractedIsosurface extract(const Execution& execution, const ExtractionRequest& request,
     ExtractedIsosurface* ghosts = nullptr);
 

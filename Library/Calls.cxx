@@ -9,7 +9,6 @@
 #include "Library/Surface.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cstddef>
 #include <cstring>
@@ -26,29 +25,31 @@ using isopoint::UsageError;
 namespace
 {
 
-/// The message of this thread's last failed call, of fixed size in case memory is exhausted.
-thread_local std::array<char, 1024> lastError{};
+/// The message of this thread's last failed call.
+thread_local std::string lastError;
 
-isopoint_status fail(isopoint_status status, const char* message)
+/// Allocates nothing, in case memory is exhausted.
+isopoint_status fail(isopoint_status status, std::string& message)
 {
-  std::strncpy(lastError.data(), message, lastError.size() - 1);
+  lastError.swap(message);
   return status;
 }
 
 /// Converts the current exception to a status and a message.
 isopoint_status failWithException()
 {
-  const isopoint::Failure failure = isopoint::describeException();
+  isopoint::Failure failure = isopoint::describeException();
   switch (failure.kind)
   {
     case isopoint::Failure::Aborted:
-      return fail(ISOPOINT_CANCELED, "The call was canceled.");
+      failure.text = "Canceled."; // short: not allocated
+      return fail(ISOPOINT_CANCELED, failure.text);
     case isopoint::Failure::InvalidUsage:
-      return fail(ISOPOINT_INVALID_ARGUMENT, failure.text.c_str());
+      return fail(ISOPOINT_INVALID_ARGUMENT, failure.text);
     case isopoint::Failure::OutOfMemory:
-      return fail(ISOPOINT_OUT_OF_MEMORY, failure.text.c_str());
+      return fail(ISOPOINT_OUT_OF_MEMORY, failure.text);
     default:
-      return fail(ISOPOINT_INTERNAL_ERROR, failure.text.c_str());
+      return fail(ISOPOINT_INTERNAL_ERROR, failure.text);
   }
 }
 
@@ -254,6 +255,13 @@ struct isopoint_extractor
   std::int32_t Threads = 0; // 0: all cores
   Callbacks Calls;
 
+  void clear()
+  {
+    this->Extractor.clear();
+    this->Counts = {};
+    this->HasSamples = false;
+  }
+
   isopoint::Execution makeExecution() const
   {
     isopoint::Execution execution = executionOnThreads(this->Threads);
@@ -282,7 +290,7 @@ const char* isopoint_version(void)
 
 const char* isopoint_get_error(void)
 {
-  return lastError.data();
+  return lastError.c_str();
 }
 
 isopoint_extractor* isopoint_create_extractor(void)
@@ -334,9 +342,7 @@ isopoint_status isopoint_set_samples(isopoint_extractor* extractor, const isopoi
     });
   if (status != ISOPOINT_OK && extractor)
   {
-    extractor->Extractor.clear();
-    extractor->Counts = {};
-    extractor->HasSamples = false;
+    extractor->clear();
   }
   return status;
 }
@@ -368,7 +374,7 @@ void isopoint_get_value_range(const isopoint_extractor* extractor, double range[
 isopoint_status isopoint_extract(isopoint_extractor* extractor, const double* isovalues,
   int64_t count, const isopoint_options* options, isopoint_surface** surface)
 {
-  return runOn(extractor, "extractor",
+  const isopoint_status status = runOn(extractor, "extractor",
     [&]()
     {
       require(surface, "place for the surface");
@@ -398,6 +404,11 @@ isopoint_status isopoint_extract(isopoint_extractor* extractor, const double* is
       execution.progress(1.0);
       *surface = made.release();
     });
+  if (status == ISOPOINT_INTERNAL_ERROR)
+  {
+    extractor->clear(); // the tree may be invalid
+  }
+  return status;
 }
 
 void isopoint_destroy_surface(isopoint_surface* surface)

@@ -222,7 +222,8 @@ ISOPOINT_API void isopoint_get_value_range(const isopoint_extractor* extractor, 
  * @param isovalues `count` numbers, possibly infinite but not NaN
  * @param options null for the defaults
  * @param surface receives a surface, to be freed by isopoint_destroy_surface(). If it has no points
- * although there are isovalues, isopoint_get_message() says why */
+ * although there are isovalues, isopoint_get_message() says why. After ISOPOINT_INTERNAL_ERROR the
+ * extractor has no samples */
 ISOPOINT_API isopoint_status isopoint_extract(isopoint_extractor* extractor,
   const double* isovalues, int64_t count, const isopoint_options* options,
   isopoint_surface** surface);
@@ -300,8 +301,9 @@ typedef enum isopoint_array_id
 ISOPOINT_API isopoint_status isopoint_get_array(
   const isopoint_surface* surface, int32_t array_id, isopoint_array* array);
 
-/* Interpolates an array of the samples at the points of a surface, keeping components and type.
- * Integers are rounded to the nearest, after conversion to double. Coincident samples are averaged.
+/* Interpolates an array of the samples at the points of a surface, keeping components and type. May
+ * be canceled, as isopoint_average_at_splat_vertices(); the result is then undefined. Integers are
+ * rounded to the nearest, after conversion to double. Coincident samples are averaged.
  * @param of_samples as many tuples as there were samples in isopoint_set_samples()
  * @param result memory for one tuple per point, contiguous */
 ISOPOINT_API isopoint_status isopoint_interpolate(

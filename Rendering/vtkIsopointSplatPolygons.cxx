@@ -29,6 +29,8 @@
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
+#include "vtkTypeInt32Array.h"
+#include "vtkTypeInt64Array.h"
 #include "vtkVersionMacros.h"
 
 #include <algorithm>
@@ -59,11 +61,11 @@ void setGeometry(
   const auto count = static_cast<vtkIdType>(mesh.vertices.size());
   vtkNew<vtkPoints> points;
   points->SetDataType(pointType);
-  points->SetNumberOfPoints(count);
+  vtkAllocateTuples(points->GetData(), count);
   vtkNew<vtkFloatArray> normals;
   normals->SetName("Normals");
   normals->SetNumberOfComponents(3);
-  normals->SetNumberOfTuples(count);
+  vtkAllocateTuples(normals, count);
   isopoint::forEachIndex(execution, mesh.vertices.size(),
     [&](std::size_t i)
     {
@@ -74,21 +76,28 @@ void setGeometry(
   output->GetPointData()->SetNormals(normals);
 }
 
-void setTriangles(const SplatMesh& mesh, vtkPolyData* output)
+/// @tparam TArray vtkTypeInt32Array or vtkTypeInt64Array
+template <class TArray>
+void setTriangles(const Execution& execution, const SplatMesh& mesh, vtkPolyData* output)
 {
-  const auto count = static_cast<vtkIdType>(mesh.triangles.size());
+  using Number = typename TArray::ValueType;
+  const std::size_t count = mesh.triangles.size();
+  vtkNew<TArray> offsets;
+  vtkNew<TArray> connectivity;
+  vtkAllocateTuples(offsets, static_cast<vtkIdType>(count + 1));
+  vtkAllocateTuples(connectivity, static_cast<vtkIdType>(3 * count));
+  Number* const ends = offsets->GetPointer(0);
+  Number* const corners = connectivity->GetPointer(0);
+  ends[0] = 0;
+  isopoint::forEachIndex(execution, count,
+    [&](std::size_t i)
+    {
+      ends[i + 1] = static_cast<Number>(3 * (i + 1));
+      std::transform(mesh.triangles[i].begin(), mesh.triangles[i].end(), corners + 3 * i,
+        [](std::size_t vertex) { return static_cast<Number>(vertex); });
+    });
   vtkNew<vtkCellArray> triangles;
-  if (std::max(3 * mesh.triangles.size(), mesh.vertices.size()) <
-      std::numeric_limits<vtkTypeInt32>::max())
-  {
-    triangles->Use32BitStorage(); // half of the memory
-  }
-  triangles->AllocateExact(count, 3 * count);
-  for (const auto& [a, b, c] : mesh.triangles)
-  {
-    triangles->InsertNextCell(
-      { static_cast<vtkIdType>(a), static_cast<vtkIdType>(b), static_cast<vtkIdType>(c) });
-  }
+  triangles->SetData(offsets, connectivity);
   output->SetPolys(triangles);
 }
 
@@ -153,15 +162,15 @@ vtkSmartPointer<vtkAbstractArray> atVertices(
 
 /// @param idOf(i) the id at index i
 template <class IdOf>
-vtkSmartPointer<vtkIdTypeArray> newIds(const char* name, std::size_t count, const IdOf& idOf)
+vtkSmartPointer<vtkIdTypeArray> newIds(
+  const Execution& execution, const char* name, std::size_t count, const IdOf& idOf)
 {
   const auto array = vtkSmartPointer<vtkIdTypeArray>::New();
   array->SetName(name);
-  array->SetNumberOfValues(static_cast<vtkIdType>(count));
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    array->SetValue(static_cast<vtkIdType>(i), static_cast<vtkIdType>(idOf(i)));
-  }
+  vtkAllocateTuples(array, static_cast<vtkIdType>(count));
+  isopoint::forEachIndex(execution, count,
+    [&](std::size_t i)
+    { array->SetValue(static_cast<vtkIdType>(i), static_cast<vtkIdType>(idOf(i))); });
   return array;
 }
 
@@ -329,14 +338,17 @@ std::string vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyDat
     static_cast<std::size_t>(count),
     [&shapes](std::size_t point) { return shapes.Fan(static_cast<vtkIdType>(point)); });
   setGeometry(execution, mesh, vtkGetTypeOfPoints(input), output);
-  setTriangles(mesh, output);
+  const bool areFew = std::max(3 * mesh.triangles.size(), mesh.vertices.size()) <
+                      std::numeric_limits<vtkTypeInt32>::max(); // half of the memory
+  areFew ? setTriangles<vtkTypeInt32Array>(execution, mesh, output)
+         : setTriangles<vtkTypeInt64Array>(execution, mesh, output);
   reportProgress(execution, withTriangles);
   copyArrays(input->GetPointData(), output->GetPointData(),
     [&](vtkAbstractArray* array) { return atVertices(execution, array, mesh); });
-  output->GetPointData()->AddArray(newIds("vtkOriginalPointIds", mesh.vertices.size(),
+  output->GetPointData()->AddArray(newIds(execution, "vtkOriginalPointIds", mesh.vertices.size(),
     [&mesh](std::size_t vertex) { return mesh.pointOfVertex[vertex]; }));
   reportProgress(execution, withPoints);
-  const auto cellIds = newIds("vtkOriginalCellIds", mesh.triangles.size(),
+  const auto cellIds = newIds(execution, "vtkOriginalCellIds", mesh.triangles.size(),
     [&](std::size_t triangle)
     { return cells.Any(static_cast<vtkIdType>(mesh.pointOfTriangle(triangle))); });
   const vtkIdType* const ids = cellIds->GetPointer(0);

@@ -116,22 +116,6 @@ inline void forRanges(
   }
 }
 
-/// Calls work(item), which must be cheap, for the items 0 .. count - 1, from any thread.
-/// @throws whatever `work` throws
-template <class Work>
-void forEachIndex(const Execution& execution, std::size_t count, const Work& work)
-{
-  constexpr std::size_t grain = 4096;
-  forRanges(execution, count, grain,
-    [&work](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        work(i);
-      }
-    });
-}
-
 /// Called after each batch with the share of the items that are done.
 using BatchDone = std::function<void(double share)>;
 
@@ -149,6 +133,38 @@ inline void forBatches(
       [&](std::size_t begin, std::size_t end) { task(done + begin, done + end); });
     throwIfAborted(execution);
     batchDone(std::min(1.0, static_cast<double>(done + batch) / static_cast<double>(count)));
+  }
+}
+
+/// Calls work(item), which takes at most microseconds, for the items 0 .. count - 1, from any
+/// thread.
+/// @throws Aborted, and whatever `work` throws
+template <class Work>
+void forEachIndex(const Execution& execution, std::size_t count, const Work& work)
+{
+  constexpr std::size_t grain = 4096;
+  forBatches(execution, count, 4 * grain, grain,
+    [&work](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        work(i);
+      }
+    });
+}
+
+/// The same in ascending order and in the calling thread, for items that depend on earlier ones.
+template <class Work>
+void forEachInOrder(const Execution& execution, std::size_t count, const Work& work)
+{
+  constexpr std::size_t batch = 4096;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (i % batch == 0)
+    {
+      throwIfAborted(execution);
+    }
+    work(i);
   }
 }
 

@@ -54,7 +54,7 @@ inline std::uint64_t hashOfCell(int grid, const std::array<double, 3>& place)
   return hash;
 }
 
-/// A hash of bytes with the same properties, computed on all threads. O(bytes)
+/// A hash of bytes and their number with the same properties, computed on all threads. O(bytes)
 /// @throws Aborted, std::bad_alloc
 inline std::uint64_t hashOf(
   const Execution& execution, const unsigned char* bytes, std::size_t count)
@@ -73,7 +73,7 @@ inline std::uint64_t hashOf(
         parts[i] = hashOf(part.data(), numbers);
       }
     });
-  return hashOf(parts.data(), parts.size());
+  return extendedHash(hashOf(parts.data(), parts.size()), count); // the last part is padded
 }
 
 } // namespace isopoint

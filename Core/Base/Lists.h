@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <mutex>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -42,7 +42,7 @@ std::vector<std::size_t> beginsOf(const std::vector<std::vector<T>>& lists, std:
 
 /// Calls work(list) for the index of each list, from any thread; groups short lists.
 /// @param begins offsets from beginsOf()
-/// @throws whatever `work` throws
+/// @throws Aborted, and whatever `work` throws
 template <class Work>
 void forEachList(
   const Execution& execution, const std::vector<std::size_t>& begins, const Work& work)
@@ -50,7 +50,7 @@ void forEachList(
   constexpr std::size_t few = 65536; // elements that are not worth a thread
   const std::size_t count = begins.size() - 1;
   const std::size_t grain = few * count / (begins.back() - begins.front() + 1) + 1;
-  forRanges(execution, count, grain,
+  forBatches(execution, count, 8 * grain, grain,
     [&work](std::size_t begin, std::size_t end)
     {
       for (std::size_t list = begin; list < end; ++list)
@@ -60,7 +60,7 @@ void forEachList(
     });
 }
 
-/// Concatenates lists. @throws std::bad_alloc
+/// Concatenates lists. @throws Aborted, std::bad_alloc
 /// @param begins offsets from beginsOf()
 template <class T>
 std::vector<T> joined(const Execution& execution, const std::vector<std::vector<T>>& lists,
@@ -72,7 +72,7 @@ std::vector<T> joined(const Execution& execution, const std::vector<std::vector<
   return all;
 }
 
-/// The elements found in ranges of items, in any order.
+/// The elements found in ranges of items, in the order of the ranges.
 /// @param collect(begin, end, found) appends the elements of a range; called from any thread
 /// @throws Aborted, std::bad_alloc, and whatever `collect` throws
 template <class T, class Collect>
@@ -80,7 +80,7 @@ std::vector<T> collected(
   const Execution& execution, const ItemBatches& batches, const Collect& collect,
   const BatchDone& batchDone = [](double) {})
 {
-  std::vector<std::vector<T>> lists;
+  std::map<std::size_t, std::vector<T>> lists; // by the first item of their range
   std::mutex mutex;
   forBatches(
     execution, batches.count, batches.batchPerThread, batches.grain,
@@ -88,40 +88,75 @@ std::vector<T> collected(
     {
       std::vector<T> found;
       collect(begin, end, found);
-      const std::lock_guard<std::mutex> lock(mutex);
-      lists.push_back(std::move(found));
+      if (!found.empty())
+      {
+        const std::lock_guard<std::mutex> lock(mutex);
+        lists.emplace(begin, std::move(found));
+      }
     },
     batchDone);
-  return joined(execution, lists, beginsOf(lists));
+  std::vector<std::vector<T>> inOrder;
+  for (auto& [begin, list] : lists)
+  {
+    inOrder.push_back(std::move(list));
+  }
+  return joined(execution, inOrder, beginsOf(inOrder));
+}
+
+/// The ascending items 0 .. count - 1 that pass a test.
+/// @param isWanted(item) called from any thread; takes at most microseconds
+/// @throws Aborted, std::bad_alloc, and whatever `isWanted` throws
+template <class IsWanted>
+std::vector<std::size_t> itemsThat(
+  const Execution& execution, std::size_t count, const IsWanted& isWanted)
+{
+  constexpr std::size_t grain = 4096;
+  return collected<std::size_t>(execution, { count, 4 * grain, grain },
+    [&isWanted](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
+    {
+      for (std::size_t item = begin; item < end; ++item)
+      {
+        if (isWanted(item))
+        {
+          found.push_back(item);
+        }
+      }
+    });
 }
 
 /// The items at each place, such as the triangles at each vertex: contiguous lists, each ascending.
 class ItemLists
 {
 public:
-  /// O(places + items)
+  /// O(places + items), in the calling thread
   /// @param placesOf(item) the item's places, each once and below placeCount; called twice
-  /// @throws std::bad_alloc
+  /// @throws Aborted, std::bad_alloc
   template <class PlacesOf>
-  ItemLists(std::size_t placeCount, std::size_t itemCount, const PlacesOf& placesOf)
+  ItemLists(const Execution& execution, std::size_t placeCount, std::size_t itemCount,
+    const PlacesOf& placesOf)
     : Begins(placeCount + 1)
   {
-    for (std::size_t item = 0; item < itemCount; ++item)
-    {
-      for (const auto place : placesOf(item))
+    forEachInOrder(execution, itemCount,
+      [&](std::size_t item)
       {
-        ++this->Begins[static_cast<std::size_t>(place)];
-      }
-    }
-    std::partial_sum(this->Begins.begin(), this->Begins.end(), this->Begins.begin());
-    this->Items.resize(this->Begins.back());
-    for (std::size_t item = itemCount; item-- > 0;)
-    {
-      for (const auto place : placesOf(item))
+        for (const auto place : placesOf(item))
+        {
+          ++this->Begins[static_cast<std::size_t>(place)];
+        }
+      });
+    std::size_t end = 0;
+    forEachInOrder(execution, this->Begins.size(),
+      [&](std::size_t place) { this->Begins[place] = end += this->Begins[place]; });
+    this->Items.resize(end);
+    forEachInOrder(execution, itemCount,
+      [&](std::size_t i)
       {
-        this->Items[--this->Begins[static_cast<std::size_t>(place)]] = item;
-      }
-    }
+        const std::size_t item = itemCount - 1 - i;
+        for (const auto place : placesOf(item))
+        {
+          this->Items[--this->Begins[static_cast<std::size_t>(place)]] = item;
+        }
+      });
   }
 
   IndexSpan<std::size_t> at(std::size_t place) const
@@ -138,19 +173,27 @@ private:
   std::vector<std::size_t> Items;
 };
 
-/// The ascending indices of marks that are set.
+/// The ascending indices of marks that are set. @throws Aborted, std::bad_alloc
 template <class TMark>
-std::vector<std::size_t> markedOf(const std::vector<TMark>& marks)
+std::vector<std::size_t> markedOf(const Execution& execution, const std::vector<TMark>& marks)
 {
-  std::vector<std::size_t> marked;
-  for (std::size_t i = 0; i < marks.size(); ++i)
-  {
-    if (marks[i])
+  return itemsThat(execution, marks.size(), [&marks](std::size_t i) { return bool(marks[i]); });
+}
+
+/// Removes the marked elements. @throws Aborted, after which some are moved
+template <class T>
+void dropMarked(const Execution& execution, const std::vector<char>& marks, std::vector<T>& all)
+{
+  std::size_t kept = 0;
+  forEachInOrder(execution, all.size(),
+    [&](std::size_t i)
     {
-      marked.push_back(i);
-    }
-  }
-  return marked;
+      if (!marks[i])
+      {
+        all[kept++] = all[i];
+      }
+    });
+  all.resize(kept);
 }
 
 template <class T>
@@ -167,17 +210,19 @@ template <class T, class Key>
 std::vector<T> sortedUnique(const Execution& execution, const std::vector<T>& elements,
   std::uint64_t keyCount, const Key& key)
 {
-  const std::size_t bucketCount =
-    std::min<std::size_t>(elements.size() / 2048 + 1, 64 * execution.threads);
+  constexpr std::size_t many = 1024; // buckets or parts; between some of them aborts are noticed
+  const std::size_t bucketCount = std::min(elements.size() / 2048 + 1,
+    std::max(64 * execution.threads, std::min(many, elements.size() / 16384)));
   const std::uint64_t keysPerBucket = keyCount / bucketCount + 1;
   const auto bucketOf = [&](const T& element)
   { return static_cast<std::size_t>(key(element) / keysPerBucket); };
 
   // Each thread distributes the elements of one part, which has its own place in each bucket.
-  const std::size_t partCount = execution.threads;
+  const std::size_t partCount =
+    std::max(execution.threads, std::min(many, elements.size() / 131072));
   const auto forElements = [&](const auto& use)
   {
-    forRanges(execution, partCount, 1,
+    forBatches(execution, partCount, 1, 1,
       [&](std::size_t firstPart, std::size_t lastPart)
       {
         for (std::size_t part = firstPart; part < lastPart; ++part)
@@ -206,7 +251,6 @@ std::vector<T> sortedUnique(const Execution& execution, const std::vector<T>& el
   forElements([&](std::size_t place, const T& element) { dealt[begins[place]++] = element; });
 
   std::vector<std::size_t> counts(bucketCount);
-  throwIfAborted(execution);
   forBatches(execution, bucketCount, 4, 1,
     [&](std::size_t begin, std::size_t end)
     {
@@ -222,6 +266,7 @@ std::vector<T> sortedUnique(const Execution& execution, const std::vector<T>& el
   std::size_t size = 0;
   for (std::size_t bucket = 0; bucket < bucketCount; ++bucket)
   {
+    throwIfAborted(execution);
     const auto first = dealt.begin() + static_cast<std::ptrdiff_t>(ends[bucket]);
     std::copy(first, first + static_cast<std::ptrdiff_t>(counts[bucket]),
       dealt.begin() + static_cast<std::ptrdiff_t>(size));
@@ -229,6 +274,13 @@ std::vector<T> sortedUnique(const Execution& execution, const std::vector<T>& el
   }
   dealt.resize(size);
   return dealt;
+}
+
+/// The same for numbers below a count.
+inline std::vector<std::size_t> sortedUnique(
+  const Execution& execution, const std::vector<std::size_t>& numbers, std::uint64_t count)
+{
+  return sortedUnique(execution, numbers, count, [](std::size_t number) { return number; });
 }
 
 } // namespace isopoint

@@ -141,7 +141,7 @@ public:
 
   /// Visits the edges at both ends; skips ends that were visited before.
   template <class Visit>
-  void forEachNeighbor(std::size_t edge, const Visit& visit)
+  void forEachNeighbor(const Execution& execution, std::size_t edge, const Visit& visit)
   {
     const auto leavesOfEdge = [this](std::size_t i)
     {
@@ -151,7 +151,7 @@ public:
     if (!this->EdgesAt)
     {
       this->IsVisited.resize(this->NodeCount, 0);
-      this->EdgesAt.emplace(this->NodeCount, this->Edges.size(), leavesOfEdge);
+      this->EdgesAt.emplace(execution, this->NodeCount, this->Edges.size(), leavesOfEdge);
     }
     for (const std::size_t leaf : leavesOfEdge(edge))
     {
@@ -184,13 +184,14 @@ std::vector<char> edgesInGaps(const Execution& execution, const SampleTree<TSamp
 {
   EdgeParts<TSample> parts(edges, tree.nodes.size());
   GapSpread<TSample, TRanks, EdgeParts<TSample>> spread(execution, tree, ranks, parts);
-  std::vector<std::size_t> seeds;
-  for (const CrossingEdge<TSample>& edge : strong)
-  {
-    const auto found = std::lower_bound(edges.begin(), edges.end(), edge);
-    seeds.push_back(static_cast<std::size_t>(found - edges.begin()));
-  }
-  keepUnique(seeds);
+  std::vector<std::size_t> seeds(strong.size());
+  forEachIndex(execution, strong.size(),
+    [&](std::size_t i)
+    {
+      const auto found = std::lower_bound(edges.begin(), edges.end(), strong[i]);
+      seeds[i] = static_cast<std::size_t>(found - edges.begin());
+    });
+  seeds = sortedUnique(execution, seeds, edges.size());
   parts.unite(ranks, seeds);
   spread.spread(GapCriterion::weak(), std::move(seeds));
   return spread.takeInGap();
@@ -204,12 +205,13 @@ std::size_t dropGapEdges(const Execution& execution, const SampleTree<TSample>& 
 {
   const std::vector<char> isInGap = edgesInGaps(execution, tree, ranks, edges, gapEdges);
   std::size_t count = 0;
-  for (std::size_t i = 0; i < edges.size(); ++i)
-  {
-    const EdgeLeaves leaves{ edges[i].firstLeaf, edges[i].secondLeaf };
-    count += isInGap[i] && tree.isOwn(firstPlaceOf(tree, leaves)) ? 1 : 0;
-  }
-  dropMarked(isInGap, edges);
+  forEachInOrder(execution, edges.size(),
+    [&](std::size_t i)
+    {
+      const EdgeLeaves leaves{ edges[i].firstLeaf, edges[i].secondLeaf };
+      count += isInGap[i] && tree.isOwn(firstPlaceOf(tree, leaves)) ? 1 : 0;
+    });
+  dropMarked(execution, isInGap, edges);
   return count;
 }
 
@@ -299,7 +301,7 @@ void keepNeighborhoods(const Execution& execution, const std::vector<std::vector
 /// @param ranks SingleRank or SharedRanks
 /// @param neighborhoods known ones of the tree's leaves; those found are added
 /// @param idCount above every id
-/// @throws Aborted, std::bad_alloc, std::length_error (see NarrowBand); the arguments remain usable
+/// @throws Aborted, std::bad_alloc, TreeTooLarge (see NarrowBand); the arguments remain usable
 template <class TSample, class TRanks>
 Isosurface extractIsosurface(const Execution& execution, SampleTree<TSample>& tree, TRanks& ranks,
   NeighborhoodCache<typename TSample::Id>& neighborhoods, std::uint64_t idCount,

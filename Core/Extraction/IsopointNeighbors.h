@@ -25,10 +25,11 @@ namespace isopoint
 /// are mostly close. O(nodes + isopoints)
 /// @param leaves of the isopoints' edges
 /// @param nodeCount of the tree
+/// @throws std::bad_alloc, Aborted
 inline std::vector<std::size_t> inOrderOfLeaves(
-  const std::vector<EdgeLeaves>& leaves, std::size_t nodeCount)
+  const Execution& execution, const std::vector<EdgeLeaves>& leaves, std::size_t nodeCount)
 {
-  return ItemLists(nodeCount, leaves.size(),
+  return ItemLists(execution, nodeCount, leaves.size(),
     [&leaves](std::size_t i) { return std::array<std::size_t, 1>{ leaves[i].first }; })
     .all();
 }
@@ -59,16 +60,17 @@ public:
     // Of the leaves at the ends of edges; 0: none.
     std::vector<Id> numbers(tree.nodes.size());
     this->numberLeaves(execution, leaves, numbers);
-    this->Isopoints.emplace(this->Leaves.size(), this->Ends.size(),
+    this->Isopoints.emplace(execution, this->Leaves.size(), this->Ends.size(),
       [this](std::size_t isopoint) { return this->Ends[isopoint]; });
     std::vector<bool> isSurrounded(this->Leaves.size(), !isInner);
-    for (std::size_t i = 0; isInner && i < leaves.size(); ++i)
-    {
-      for (const Id end : this->Ends[i])
+    forEachInOrder(execution, isInner ? leaves.size() : 0,
+      [&](std::size_t i)
       {
-        isSurrounded[end] = isSurrounded[end] || (*isInner)[i];
-      }
-    }
+        for (const Id end : this->Ends[i])
+        {
+          isSurrounded[end] = isSurrounded[end] || (*isInner)[i];
+        }
+      });
     this->listTouching(execution, tree, known, numbers, isSurrounded);
   }
 
@@ -211,20 +213,16 @@ private:
   void numberLeaves(
     const Execution& execution, const std::vector<EdgeLeaves>& leaves, std::vector<Id>& numbers)
   {
-    for (const EdgeLeaves& edge : leaves)
-    {
-      numbers[edge.first] = 1;
-      numbers[edge.second] = 1;
-    }
-    this->Leaves.push_back(0);
-    for (std::size_t node = 0; node < numbers.size(); ++node)
-    {
-      if (numbers[node] != 0)
+    forEachInOrder(execution, leaves.size(),
+      [&](std::size_t i) { numbers[leaves[i].first] = numbers[leaves[i].second] = 1; });
+    const std::vector<std::size_t> nodes = markedOf(execution, numbers);
+    this->Leaves.resize(nodes.size() + 1, 0);
+    forEachIndex(execution, nodes.size(),
+      [&](std::size_t i)
       {
-        numbers[node] = static_cast<Id>(this->Leaves.size());
-        this->Leaves.push_back(static_cast<Id>(node));
-      }
-    }
+        numbers[nodes[i]] = static_cast<Id>(i + 1);
+        this->Leaves[i + 1] = static_cast<Id>(nodes[i]);
+      });
     this->Ends.resize(leaves.size());
     forEachIndex(execution, leaves.size(),
       [&](std::size_t i) {

@@ -44,19 +44,20 @@ struct CrossingEdge : SampleEdge
   typename TSample::Id secondLeaf;
 };
 
-/// The leaves at the ends of edges, sorted, each once.
+/// The leaves at the ends of edges, sorted, each once. @throws std::bad_alloc, Aborted
+/// @param nodeCount of the tree
 template <class TSample>
-std::vector<std::size_t> leavesOf(const std::vector<CrossingEdge<TSample>>& edges)
+std::vector<std::size_t> leavesOf(const Execution& execution,
+  const std::vector<CrossingEdge<TSample>>& edges, std::size_t nodeCount)
 {
-  std::vector<std::size_t> leaves;
-  leaves.reserve(2 * edges.size());
-  for (const CrossingEdge<TSample>& edge : edges)
-  {
-    leaves.push_back(static_cast<std::size_t>(edge.firstLeaf));
-    leaves.push_back(static_cast<std::size_t>(edge.secondLeaf));
-  }
-  keepUnique(leaves);
-  return leaves;
+  std::vector<std::size_t> leaves(2 * edges.size());
+  forEachIndex(execution, edges.size(),
+    [&](std::size_t i)
+    {
+      leaves[2 * i] = static_cast<std::size_t>(edges[i].firstLeaf);
+      leaves[2 * i + 1] = static_cast<std::size_t>(edges[i].secondLeaf);
+    });
+  return sortedUnique(execution, leaves, nodeCount);
 }
 
 /// The isovalue, the criteria of edges, and the fits.
@@ -145,7 +146,7 @@ struct Isosurface
   }
 };
 
-/// all[i] for each index i. @throws std::bad_alloc
+/// all[i] for each index i. @throws std::bad_alloc, Aborted
 /// @param all if empty, so is the result
 template <class T>
 std::vector<T> chosenOf(
@@ -164,8 +165,10 @@ std::vector<T> chosenOf(
 /// @param begins offsets of all lists, and the end of the last one; if empty, so is the result
 /// @param elements receives the element indices of the chosen lists
 /// @returns offsets of the chosen lists, and the end of the last one
-inline std::vector<std::size_t> chosenLists(const std::vector<std::size_t>& begins,
-  const std::vector<std::size_t>& indices, std::vector<std::size_t>& elements)
+/// @throws std::bad_alloc, Aborted
+inline std::vector<std::size_t> chosenLists(const Execution& execution,
+  const std::vector<std::size_t>& begins, const std::vector<std::size_t>& indices,
+  std::vector<std::size_t>& elements)
 {
   if (begins.empty())
   {
@@ -173,25 +176,27 @@ inline std::vector<std::size_t> chosenLists(const std::vector<std::size_t>& begi
   }
   std::vector<std::size_t> chosen(1, 0);
   chosen.reserve(indices.size() + 1);
-  for (const std::size_t index : indices)
-  {
-    for (std::size_t element = begins[index]; element < begins[index + 1]; ++element)
+  forEachInOrder(execution, indices.size(),
+    [&](std::size_t i)
     {
-      elements.push_back(element);
-    }
-    chosen.push_back(elements.size());
-  }
+      for (std::size_t k = begins[indices[i]]; k < begins[indices[i] + 1]; ++k)
+      {
+        elements.push_back(k);
+      }
+      chosen.push_back(elements.size());
+    });
   return chosen;
 }
 
 /// The isopoints of some indices, in their order, without coincident samples.
+/// @throws std::bad_alloc, Aborted
 inline Isosurface chosenIsopoints(
   const Execution& execution, const Isosurface& surface, const std::vector<std::size_t>& indices)
 {
   Isosurface few;
   few.isovalue = surface.isovalue;
   std::vector<std::size_t> edges;
-  few.edgeBegins = chosenLists(surface.edgeBegins, indices, edges);
+  few.edgeBegins = chosenLists(execution, surface.edgeBegins, indices, edges);
   few.edges = chosenOf(execution, surface.edges, few.edgeBegins.empty() ? indices : edges);
   few.leaves = chosenOf(execution, surface.leaves, few.edgeBegins.empty() ? indices : edges);
   few.positions = chosenOf(execution, surface.positions, indices);
@@ -207,7 +212,7 @@ std::vector<CoincidentSamples> coincidentEnds(
 {
   constexpr std::size_t grain = 4096;
   std::vector<std::size_t> leaves =
-    collected<std::size_t>(execution, { edges.size(), 64 * grain, grain },
+    collected<std::size_t>(execution, { edges.size(), 4 * grain, grain },
       [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
       {
         for (std::size_t i = begin; i < end; ++i)
@@ -221,17 +226,17 @@ std::vector<CoincidentSamples> coincidentEnds(
           }
         }
       });
-  keepUnique(leaves);
-  std::vector<CoincidentSamples> result;
-  for (const std::size_t leaf : leaves)
-  {
-    CoincidentSamples group;
-    for (std::size_t i = tree.nodes[leaf].begin; i < tree.nodes[leaf].end; ++i)
+  leaves = sortedUnique(execution, leaves, tree.nodes.size());
+  std::vector<CoincidentSamples> result(leaves.size());
+  forEachIndex(execution, leaves.size(),
+    [&](std::size_t group)
     {
-      group.ids.push_back(tree.samples[i].id);
-    }
-    result.push_back(std::move(group));
-  }
+      const Node<TSample>& leaf = tree.nodes[leaves[group]];
+      for (std::size_t i = leaf.begin; i < leaf.end; ++i)
+      {
+        result[group].ids.push_back(tree.samples[i].id);
+      }
+    });
   std::sort(result.begin(), result.end(),
     [](const CoincidentSamples& a, const CoincidentSamples& b)
     { return a.ids.front() < b.ids.front(); });

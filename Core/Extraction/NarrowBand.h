@@ -60,7 +60,7 @@ public:
   /// @returns nodes whose subtrees contain all (of this rank's) leaves with crossing edges; these
   /// subtrees, and everything that touches their leaves, are split down to leaves
   /// @throws Aborted, std::bad_alloc; the tree can be refined again
-  /// @throws std::length_error if the tree would exceed maximumDepth, which takes over 2^31 samples
+  /// @throws TreeTooLarge if the tree would exceed maximumDepth, which takes over 2^31 samples
   /// in nested groups of coincident ones, or have more nodes than ids can number
   template <class TRanks>
   std::vector<BinaryIndex> refine(TRanks& ranks)
@@ -183,7 +183,7 @@ private:
     // All threads split each node together while there are too few nodes for all threads.
     constexpr std::size_t togetherCount = std::size_t{ 1 } << 16;
     const std::size_t fewNodes = 4 * this->Exec.threads;
-    const std::size_t batchSamples = (std::size_t{ 1 } << 18) * this->Exec.threads;
+    const std::size_t batchSamples = (std::size_t{ 1 } << 17) * this->Exec.threads;
 
     const auto shareAt = [&front](std::size_t node)
     { return static_cast<double>(node) / static_cast<double>(front.size()); };

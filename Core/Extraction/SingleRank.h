@@ -77,7 +77,8 @@ public:
     const FitRequest& request, const Edges& edges, const std::vector<Vector>& starts)
   {
     constexpr double splitEnd = 0.2; // share of the progress
-    this->splitAround(partOf(execution, 0.0, splitEnd), leavesOf(edges));
+    this->splitAround(
+      partOf(execution, 0.0, splitEnd), leavesOf(execution, edges, this->Tree.nodes.size()));
     return fitNeighborhoods(
       partOf(execution, splitEnd, 1.0), context, *this, request, edges, starts);
   }

@@ -63,7 +63,7 @@ inline std::optional<Vector> fieldNormal(const SurfacePoints& points, std::size_
 /// Sets the normals of points with fits to fieldNormal(), if `areOfField`.
 /// @param set(point, normal) called from any thread
 /// @returns the points without a normal, ascending
-/// @throws std::bad_alloc
+/// @throws std::bad_alloc, Aborted
 template <class Set>
 std::vector<std::size_t> setFieldNormals(
   const Execution& execution, const SurfacePoints& points, bool areOfField, const Set& set)
@@ -81,7 +81,7 @@ std::vector<std::size_t> setFieldNormals(
         }
       });
   }
-  return markedOf(areLeft);
+  return markedOf(execution, areLeft);
 }
 
 } // namespace isopoint

@@ -90,7 +90,7 @@ public:
     {
       return;
     }
-    this->Order = inOrderOfLeaves(this->Whole.leaves, this->Tree.nodes.size());
+    this->Order = inOrderOfLeaves(this->Exec, this->Whole.leaves, this->Tree.nodes.size());
     this->Ordered = chosenIsopoints(this->Exec, this->Whole, this->Order);
   }
 

@@ -15,21 +15,6 @@
 namespace isopoint
 {
 
-/// Removes the marked elements.
-template <class T>
-void dropMarked(const std::vector<char>& marks, std::vector<T>& all)
-{
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < all.size(); ++i)
-  {
-    if (!marks[i])
-    {
-      all[kept++] = all[i];
-    }
-  }
-  all.resize(kept);
-}
-
 /// Finds the parts of a surface, edges or tetrahedra, that lie in gaps of the cloud: parts that the
 /// weak gap criterion rejects and that are connected with a seed through other such parts. If ranks
 /// share the tree, all functions are collective.
@@ -39,7 +24,7 @@ void dropMarked(const std::vector<char>& marks, std::vector<T>& all)
 /// - anyEdge(part, test): whether test(leaf, otherLeaf) is true for any edge of a part;
 /// - isCounted(part): whether this rank examines the part;
 /// - unite(ranks, parts): adds parts that other ranks found, and sorts;
-/// - forEachNeighbor(part, visit): visits the parts connected with a part
+/// - forEachNeighbor(execution, part, visit): visits the parts connected with a part
 template <class TSample, class TRanks, class TParts>
 class GapSpread
 {
@@ -69,11 +54,9 @@ public:
         const std::size_t part = candidates[i];
         marks[i] = this->Parts.isCounted(part) && this->isRejected(criterion, part) ? 1 : 0;
       });
-    std::vector<std::size_t> found;
-    for (const std::size_t i : markedOf(marks))
-    {
-      found.push_back(candidates[i]);
-    }
+    std::vector<std::size_t> found = markedOf(this->Exec, marks);
+    std::transform(
+      found.begin(), found.end(), found.begin(), [&](std::size_t i) { return candidates[i]; });
     this->Parts.unite(this->Ranks, found);
     return found;
   }
@@ -86,10 +69,7 @@ public:
   {
     this->IsReached.resize(this->Parts.size(), 0);
     this->IsInGap.resize(this->Parts.size(), 0);
-    for (const std::size_t part : front)
-    {
-      this->IsReached[part] = 1;
-    }
+    forEachIndex(this->Exec, front.size(), [&](std::size_t i) { this->IsReached[front[i]] = 1; });
     while (this->Ranks.isAny(!front.empty()))
     {
       front = this->next(this->rejectedAmong(weak, front));
@@ -120,28 +100,29 @@ private:
   /// Marks parts as in a gap. @returns their neighbors that were not reached before
   std::vector<std::size_t> next(const std::vector<std::size_t>& parts)
   {
-    throwIfAborted(this->Exec);
     std::vector<std::size_t> found;
-    for (const std::size_t part : parts)
-    {
-      if (this->IsInGap[part])
+    forEachInOrder(this->Exec, parts.size(),
+      [&](std::size_t i)
       {
-        continue;
-      }
-      this->IsInGap[part] = 1;
-      this->IsReached[part] = 1;
-      this->Parts.forEachNeighbor(part,
-        [&](std::size_t neighbor)
+        const std::size_t part = parts[i];
+        if (this->IsInGap[part])
         {
-          if (!this->IsReached[neighbor])
+          return;
+        }
+        this->IsInGap[part] = 1;
+        this->IsReached[part] = 1;
+        this->Parts.forEachNeighbor(this->Exec, part,
+          [&](std::size_t neighbor)
           {
-            this->IsReached[neighbor] = 1;
-            found.push_back(neighbor);
-          }
-        });
-    }
-    std::sort(found.begin(), found.end()); // the order of neighbors differs among ranks
-    return found;
+            if (!this->IsReached[neighbor])
+            {
+              this->IsReached[neighbor] = 1;
+              found.push_back(neighbor);
+            }
+          });
+      });
+    // The order of neighbors differs among ranks.
+    return sortedUnique(this->Exec, found, this->Parts.size());
   }
 
   const Execution& Exec;

@@ -165,7 +165,7 @@ public:
   }
 
   /// @param nodeIndex an absent node
-  /// @throws std::bad_alloc, std::length_error, the node unchanged
+  /// @throws std::bad_alloc, TreeTooLarge, the node unchanged
   void read(std::size_t nodeIndex, ByteReader& in)
   {
     const Node<TSample> former = this->Tree.nodes[nodeIndex];

@@ -169,8 +169,8 @@ public:
           std::binary_search(keptEdges.begin(), keptEdges.end(), edge) ? 1 : 0);
       }
     }
-    surface =
-      chosenIsopoints(execution, surface, markedOf(this->Processes.exchange(answers).front()));
+    surface = chosenIsopoints(
+      execution, surface, markedOf(execution, this->Processes.exchange(answers).front()));
   }
 
   void gatherLeaves(std::vector<std::size_t>& leaves)

@@ -86,8 +86,8 @@ public:
   /// or the first two if gather() fetched only three.
   const std::vector<bool>* inner() const { return &this->IsInner; }
 
-  std::vector<std::size_t> owned() const { return markedOf(this->IsOwned); }
-  std::vector<std::size_t> ghosts() const { return markedOf(this->IsGhost); }
+  std::vector<std::size_t> owned() const { return markedOf(this->Exec, this->IsOwned); }
+  std::vector<std::size_t> ghosts() const { return markedOf(this->Exec, this->IsGhost); }
 
   Isosurface takeOwned() const { return chosenIsopoints(this->Exec, this->All, this->owned()); }
 
@@ -343,7 +343,8 @@ private:
         this->Shaped.push_back(i);
       }
     }
-    for (const std::size_t i : inOrderOfLeaves(this->All.leaves, this->Tree.nodes.size()))
+    for (const std::size_t i :
+      inOrderOfLeaves(this->Exec, this->All.leaves, this->Tree.nodes.size()))
     {
       if (isOwn[i])
       {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 
@@ -151,8 +152,8 @@ std::vector<MissedPoint> missedPoints(const Execution& execution, const SurfaceP
       { return a * corner.x + b * corner.y > 0.5 * dot(offset, offset); });
   };
   constexpr std::size_t grain = 4096;
-  std::vector<MissedPoint> missed =
-    collected<MissedPoint>(execution, { cells.size(), 16 * grain, grain },
+  const std::vector<MissedPoint> missed =
+    collected<MissedPoint>(execution, { cells.size(), 4 * grain, grain },
       [&](std::size_t begin, std::size_t end, std::vector<MissedPoint>& found)
       {
         for (std::size_t other = begin; other < end; ++other)
@@ -168,8 +169,8 @@ std::vector<MissedPoint> missedPoints(const Execution& execution, const SurfaceP
           }
         }
       });
-  keepUnique(missed);
-  return missed;
+  return sortedUnique(execution, missed, cells.size(),
+    [](const MissedPoint& each) { return static_cast<std::uint64_t>(each.first); });
 }
 
 VoronoiCell withSharedSides(const RawArray<VoronoiCell>& cells, std::size_t point)

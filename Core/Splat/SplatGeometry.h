@@ -4,6 +4,7 @@
 #include "Core/Base/Execution.h"
 #include "Core/Base/Lists.h"
 #include "Core/Base/RawArray.h"
+#include "Core/Extraction/Isosurface.h"
 #include "Core/Splat/CellCutter.h"
 #include "Core/Splat/HiddenPoints.h"
 #include "Core/Splat/SharedSides.h"
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -78,7 +78,6 @@ private:
       setFieldNormals(this->Exec, this->Points, this->Options.fieldNormals,
         [this](std::size_t point, const Vector& normal) { this->CellNormals[point] = normal; });
     this->Chosen.keepOwn(unfitted);
-    throwIfAborted(this->Exec);
     this->forPoints(
       partOf(this->Exec, 0.0, this->Options.shapes ? normalsEnd : 1.0), unfitted,
       [this]() {
@@ -87,10 +86,8 @@ private:
       [this](PlaneNormals<TNeighbors>& normals, std::size_t point)
       { this->CellNormals[point] = normals.at(point); });
     this->Chosen.share(this->CellNormals);
-    for (std::size_t point = 0; point < this->Splats.size(); ++point)
-    {
-      this->Splats[point].normal = this->CellNormals[point];
-    }
+    forEachIndex(this->Exec, this->Splats.size(),
+      [this](std::size_t point) { this->Splats[point].normal = this->CellNormals[point]; });
   }
 
   void findHidden()
@@ -109,10 +106,9 @@ private:
         [&](HiddenPoints<TNeighbors>& hidden, std::size_t point)
         { this->States[point] = hidden.next(point, states); });
       this->Chosen.share(this->States);
-      undecided.erase(
-        std::remove_if(undecided.begin(), undecided.end(),
-          [this](std::size_t point) { return this->States[point] != SplatState::Undecided; }),
-        undecided.end());
+      std::vector<std::size_t> left = itemsThat(this->Exec, undecided.size(),
+        [&](std::size_t i) { return this->States[undecided[i]] == SplatState::Undecided; });
+      undecided = chosenOf(this->Exec, undecided, left);
     }
   }
 
@@ -121,12 +117,10 @@ private:
     this->Cells.resize(this->Splats.size());
     this->cut(partOf(this->Exec, normalsEnd, cutEnd), this->Chosen.own());
     this->Missed = missedPoints(this->Exec, this->Points, this->CellNormals, this->Cells);
-    std::vector<std::size_t> missing;
-    for (const MissedPoint& missed : this->Missed)
-    {
-      missing.push_back(missed.first);
-    }
-    keepUnique(missing);
+    std::vector<std::size_t> missing(this->Missed.size());
+    forEachIndex(
+      this->Exec, missing.size(), [&](std::size_t i) { missing[i] = this->Missed[i].first; });
+    missing = sortedUnique(this->Exec, missing, this->Splats.size());
     this->Chosen.keepOwn(missing);
     this->cut(partOf(this->Exec, cutEnd, cutEnd), missing);
     const std::vector<std::size_t> turned = this->turnPlanes();
@@ -179,17 +173,16 @@ private:
       });
     this->Chosen.share(this->CellNormals);
     this->Chosen.share(areTurned);
-    std::vector<std::size_t> changed;
-    std::copy_if(own.begin(), own.end(), std::back_inserter(changed),
-      [&](std::size_t point)
+    const std::vector<std::size_t> changed = itemsThat(this->Exec, own.size(),
+      [&](std::size_t i)
       {
-        const VoronoiCell& cell = this->Cells[point];
-        return areTurned[point] ||
+        const VoronoiCell& cell = this->Cells[own[i]];
+        return areTurned[own[i]] ||
                std::any_of(cell.begin(), cell.end(),
                  [&](const VoronoiCell::Corner& corner)
                  { return VoronoiCell::isPoint(corner.beyond) && areTurned[corner.beyond]; });
       });
-    return changed;
+    return chosenOf(this->Exec, own, changed);
   }
 
   const Execution& Exec;

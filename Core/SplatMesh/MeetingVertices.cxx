@@ -102,14 +102,15 @@ std::vector<Entry> verticesByCell(
   const Execution& execution, const std::vector<SplatVertex>& vertices)
 {
   std::set<int> grids;
-  for (const SplatVertex& vertex : vertices)
-  {
-    if (mayMeet(vertex))
+  forEachInOrder(execution, vertices.size(),
+    [&](std::size_t i)
     {
-      grids.insert(gridOf(vertex));
-    }
-  }
-  const std::vector<Entry> entries = collected<Entry>(execution, { vertices.size(), 1 << 16, 4096 },
+      if (mayMeet(vertices[i]))
+      {
+        grids.insert(gridOf(vertices[i]));
+      }
+    });
+  const std::vector<Entry> entries = collected<Entry>(execution, { vertices.size(), 1 << 14, 4096 },
     [&](std::size_t begin, std::size_t end, std::vector<Entry>& found)
     {
       for (std::size_t i = begin; i < end; ++i)
@@ -147,7 +148,7 @@ std::vector<std::size_t> meetingVertices(
   std::size_t end = 0;
   for (std::size_t i = 0; i < entries.size(); ++i)
   {
-    constexpr std::size_t batch = 1 << 17;
+    constexpr std::size_t batch = 1 << 14;
     if (i % batch == 0)
     {
       throwIfAborted(execution);
@@ -169,10 +170,11 @@ std::vector<std::size_t> meetingVertices(
     }
     end = isOfFinerGrid(entry) ? end : i + 1;
   }
-  for (std::size_t& vertex : meetsAt)
-  {
-    vertex = meetsAt[vertex]; // has a lower number, so it is final
-  }
+  forEachInOrder(execution, meetsAt.size(),
+    [&](std::size_t vertex)
+    {
+      meetsAt[vertex] = meetsAt[meetsAt[vertex]]; // has a lower number, so it is final
+    });
   return meetsAt;
 }
 

@@ -84,7 +84,7 @@ SplatMesh buildSplatMesh(const Execution& execution, std::size_t points,
     });
 
   std::vector<std::size_t> meetsAt = meetingVertices(partOf(execution, 2.0 * third, 1.0), vertices);
-  ItemLists meeting(vertices.size(), vertices.size(),
+  ItemLists meeting(execution, vertices.size(), vertices.size(),
     [&meetsAt](std::size_t vertex) { return std::array<std::size_t, 1>{ meetsAt[vertex] }; });
   return { std::move(vertices), std::move(pointOfVertex), std::move(triangles), std::move(meetsAt),
     std::move(meeting) };

@@ -64,6 +64,7 @@ SplatMesh buildSplatMesh(const Execution& execution, std::size_t points,
 /// @param components of each value
 /// @param numberOf(point, component) called from any thread
 /// @param means output: components of each vertex
+/// @throws Aborted
 template <class T, class NumberOf>
 void meansAtVertices(const Execution& execution, const SplatMesh& mesh, std::size_t components,
   const NumberOf& numberOf, T* means)

@@ -60,7 +60,7 @@ public:
 
   /// @param nodes that contain all of this rank's leaves that touch a leaf on the other side
   /// @returns tetrahedra of leaves of this rank's tree
-  /// @throws std::bad_alloc, Aborted, FailedElsewhere, or std::length_error (see NarrowBand)
+  /// @throws std::bad_alloc, Aborted, FailedElsewhere, or TreeTooLarge (see NarrowBand)
   std::vector<CrossingTetrahedron<Id>> find(const std::vector<BinaryIndex>& nodes)
   {
     std::vector<std::size_t> leaves = this->leavesAtSurface(nodes);
@@ -97,7 +97,7 @@ public:
     {
       this->Kept = std::move(this->Current);
     }
-    this->Current.reset();
+    dropTetrahedra(this->Exec, this->Current);
     return found;
   }
 
@@ -204,8 +204,7 @@ private:
   void gather(std::vector<std::size_t>& leaves)
   {
     this->Ranks.gatherLeaves(leaves);
-    sortInTreeOrder(this->Tree, leaves);
-    leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+    leaves = inTreeOrder(this->Exec, this->Tree, leaves);
   }
 
   /// Continues with the kept band if it contains at least half of the leaves and not many others;
@@ -217,11 +216,11 @@ private:
     const bool isNew = this->Ranks.isAny(!this->Current);
     if (isNew || !this->isOfUse(leaves))
     {
-      this->Current.reset();
+      dropTetrahedra(this->Exec, this->Current);
       this->Current = std::make_unique<KeptTetrahedra>(unitOfSamples(this->Exec, this->Tree));
       return;
     }
-    this->triangulation().setSides([this](std::uint64_t leaf)
+    this->triangulation().setSides(this->Exec, [this](std::uint64_t leaf)
       { return this->Values.at(static_cast<std::size_t>(leaf)) < this->Isovalue; });
   }
 
@@ -229,8 +228,10 @@ private:
   {
     constexpr std::size_t maxTimes = 3;
     this->Current->marks.grow(this->Tree.nodes.size());
-    const auto known = static_cast<std::size_t>(std::count_if(leaves.begin(), leaves.end(),
-      [this](std::size_t leaf) { return this->Current->marks.has(leaf, bandmarks::inBand); }));
+    std::size_t known = 0;
+    forEachInOrder(this->Exec, leaves.size(),
+      [&](std::size_t i)
+      { known += this->Current->marks.has(leaves[i], bandmarks::inBand) ? 1 : 0; });
     return 2 * known >= leaves.size() && this->triangulation().size() <= maxTimes * leaves.size();
   }
 
@@ -258,15 +259,17 @@ private:
   {
     std::vector<BandSite> sites;
     sites.reserve(leaves.size());
-    for (const std::size_t leaf : leaves)
-    {
-      if (!this->Current->marks.has(leaf, bandmarks::inBand))
+    forEachInOrder(this->Exec, leaves.size(),
+      [&](std::size_t i)
       {
-        this->Current->marks.set(leaf, bandmarks::inBand);
-        sites.push_back(
-          { positionOf(this->Tree.sampleOf(leaf)), leaf, this->Values.at(leaf) < this->Isovalue });
-      }
-    }
+        const std::size_t leaf = leaves[i];
+        if (!this->Current->marks.has(leaf, bandmarks::inBand))
+        {
+          this->Current->marks.set(leaf, bandmarks::inBand);
+          sites.push_back({ positionOf(this->Tree.sampleOf(leaf)), leaf,
+            this->Values.at(leaf) < this->Isovalue });
+        }
+      });
     return sites;
   }
 
@@ -280,15 +283,7 @@ private:
   {
     splitCompletely(this->Exec, this->Tree, { SampleTree<TSample>::rootNode });
     std::vector<std::size_t> leaves;
-    Path path = pathToRoot(this->Tree);
-    forEachBelow(this->Tree, path, maximumDepth,
-      [&](const Path& leaf)
-      {
-        if (this->Tree.hasOwn(this->Tree.nodes[leaf.nodeIndex()]))
-        {
-          leaves.push_back(leaf.nodeIndex());
-        }
-      });
+    this->forEachOwnEnd([&](std::size_t leaf) { leaves.push_back(leaf); });
     this->gatherAndInsert(std::move(leaves));
     this->Current->isWhole = true;
   }
@@ -320,21 +315,41 @@ private:
   std::optional<std::size_t> nodeOffBand()
   {
     std::optional<std::size_t> found;
-    Path path = pathToRoot(this->Tree);
-    forEachBelow(this->Tree, path, maximumDepth,
-      [&](const Path& below)
+    this->forEachOwnEnd(
+      [&](std::size_t index)
       {
-        const Node<TSample>& node = this->Tree.nodes[below.nodeIndex()];
+        const Node<TSample>& node = this->Tree.nodes[index];
         const std::size_t end = node.positionsEnd();
-        for (std::size_t i = node.begin; i < end && !found && this->Tree.hasOwn(node); ++i)
+        for (std::size_t i = node.begin; i < end && !found; ++i)
         {
           if (this->triangulation().raisesDimension(positionOf(this->Tree.samples[i])))
           {
-            found = below.nodeIndex();
+            found = index;
           }
         }
       });
     return found;
+  }
+
+  /// Calls visit(node) for this rank's nodes without children, in the order of the tree.
+  template <class Visit>
+  void forEachOwnEnd(const Visit& visit) const
+  {
+    constexpr std::size_t batch = 4096;
+    std::size_t count = 0;
+    Path path = pathToRoot(this->Tree);
+    forEachBelow(this->Tree, path, maximumDepth,
+      [&](const Path& below)
+      {
+        if (count++ % batch == 0)
+        {
+          throwIfAborted(this->Exec);
+        }
+        if (this->Tree.hasOwn(this->Tree.nodes[below.nodeIndex()]))
+        {
+          visit(below.nodeIndex());
+        }
+      });
   }
 
   struct SearchResult

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "Core/Base/Execution.h"
 #include "Core/Tetrahedra/PartialTriangulation.h"
 #include "Core/Tree/NodeMarks.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 
 namespace isopoint
 {
@@ -33,5 +35,15 @@ struct KeptTetrahedra
   NodeMarks marks;      // see bandmarks
   bool isWhole = false; // whether all samples are in it
 };
+
+/// Sets a band to null. @throws Aborted, after which it is empty
+inline void dropTetrahedra(const Execution& execution, std::unique_ptr<KeptTetrahedra>& band)
+{
+  if (band)
+  {
+    band->triangulation.clear(execution);
+    band.reset();
+  }
+}
 
 } // namespace isopoint

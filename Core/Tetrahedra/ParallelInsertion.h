@@ -14,9 +14,10 @@
 #include <CGAL/Spatial_sort_traits_adapter_3.h>
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
-#include <CGAL/property_map.h>
 #include <CGAL/spatial_sort.h>
 #include <CGAL/tags.h>
+
+#include <boost/property_map/property_map.hpp>
 
 #include <algorithm>
 #include <array>
@@ -24,9 +25,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <iterator>
 #include <memory>
-#include <numeric>
 #include <vector>
 
 namespace isopoint::band
@@ -49,9 +48,45 @@ private:
   std::uint64_t Bits = 0;
 };
 
+/// The positions of sites, by number, as CGAL's sort reads them: many times, in one thread. Looks
+/// for an abort meanwhile.
+class ReadPoints
+{
+public:
+  using key_type = std::size_t;
+  using value_type = Point;
+  using reference = const Point&;
+  using category = boost::readable_property_map_tag;
+
+  ReadPoints(const Execution& execution, const std::vector<Point>& points, std::size_t& reads)
+    : Exec(&execution)
+    , Points(&points)
+    , Reads(&reads)
+  {
+  }
+
+  friend const Point& get(const ReadPoints& points, std::size_t site)
+  {
+    constexpr std::size_t batch = 1 << 16;
+    if (++*points.Reads % batch == 0)
+    {
+      throwIfAborted(*points.Exec);
+    }
+    return (*points.Points)[site];
+  }
+
+private:
+  const Execution* Exec;
+  const std::vector<Point>* Points;
+  std::size_t* Reads; // counted by all copies
+};
+
 /// A lower bound on the cells that this thread can make before CGAL allocates memory. CGAL keeps a
 /// list of free cells, for each thread if Concurrency is parallel.
 inline thread_local std::ptrdiff_t freeCells = 0;
+
+/// Called by this thread after every few thousand cells that it frees; must not throw.
+inline thread_local const std::function<void()>* freesCells = nullptr;
 
 /// Info of a cell; counts free cells.
 class CellInfo
@@ -64,7 +99,14 @@ public:
     --freeCells;
   }
   CellInfo& operator=(const CellInfo&) = default;
-  ~CellInfo() { ++freeCells; }
+  ~CellInfo()
+  {
+    constexpr std::ptrdiff_t batch = 4096;
+    if (++freeCells % batch == 0 && freesCells)
+    {
+      (*freesCells)();
+    }
+  }
 
   bool isCertified = false;
 };
@@ -157,14 +199,17 @@ private:
 
   void sort()
   {
-    std::vector<Point> points;
-    points.reserve(this->Sites.size());
-    std::transform(this->Sites.begin(), this->Sites.end(), std::back_inserter(points),
-      [](const BandSite& site) { return pointAt(site.position); });
-    std::iota(this->Order.begin(), this->Order.end(), std::size_t{ 0 });
-    const auto pointOf = CGAL::make_property_map(points);
+    std::vector<Point> points(this->Sites.size());
+    forEachIndex(this->Exec, points.size(),
+      [&](std::size_t site)
+      {
+        points[site] = pointAt(this->Sites[site].position);
+        this->Order[site] = site;
+      });
+    std::size_t reads = 0;
     CGAL::spatial_sort(this->Order.begin(), this->Order.end(),
-      CGAL::Spatial_sort_traits_adapter_3<Kernel, decltype(pointOf)>(pointOf));
+      CGAL::Spatial_sort_traits_adapter_3<Kernel, ReadPoints>(
+        ReadPoints(this->Exec, points, reads)));
   }
 
   /// The ends of the levels; levels with few samples are combined.

@@ -10,7 +10,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
+#include <utility>
 
 namespace isopoint
 {
@@ -83,12 +83,13 @@ public:
     }
     if (this->All.empty())
     {
-      this->All.reserve(this->Cells.tds().cells().size());
-      const auto all = this->Cells.all_cell_handles();
-      std::copy(all.begin(), all.end(), std::back_inserter(this->All));
+      std::vector<Cell> all(this->Cells.tds().cells().size());
+      auto next = this->Cells.all_cells_begin();
+      forEachInOrder(execution, all.size(), [&](std::size_t i) { all[i] = next++; });
+      this->All = std::move(all);
     }
     constexpr std::size_t grain = 16384;
-    this->Listed = collected<Cell>(execution, { this->All.size(), 32 * grain, grain },
+    this->Listed = collected<Cell>(execution, { this->All.size(), 4 * grain, grain },
       [&](std::size_t begin, std::size_t end, std::vector<Cell>& found)
       {
         std::copy_if(this->All.begin() + static_cast<std::ptrdiff_t>(begin),
@@ -148,24 +149,41 @@ PartialTriangulation::~PartialTriangulation()
 #endif
 }
 
+void PartialTriangulation::clear(const Execution& execution)
+{
+  this->dropLists();
+  bool isAborted = false;
+  const std::function<void()> ask = [&]() { isAborted = isAborted || execution.aborted(); };
+  band::freesCells = &ask;
+  this->Inside->Cells.tds().vertices().clear();
+  ask();
+  this->Inside->Cells.clear();
+  band::freesCells = nullptr;
+  if (isAborted || execution.aborted())
+  {
+    throw Aborted();
+  }
+}
+
 void PartialTriangulation::insert(const Execution& execution, const std::vector<BandSite>& sites,
   const std::function<void(double share)>& step)
 {
   this->dropLists();
-  for (const BandSite& site : sites)
-  {
-    this->Inside->Unit.add(site.position);
-  }
+  forEachInOrder(
+    execution, sites.size(), [&](std::size_t i) { this->Inside->Unit.add(sites[i].position); });
   band::Insertion(execution, this->Inside->Cells, sites, step).run();
 }
 
-void PartialTriangulation::setSides(const std::function<bool(std::uint64_t leaf)>& isBelow)
+void PartialTriangulation::setSides(
+  const Execution& execution, const std::function<bool(std::uint64_t leaf)>& isBelow)
 {
-  for (const Vertex vertex : this->Inside->Cells.finite_vertex_handles())
-  {
-    const std::uint64_t leaf = vertex->info().leaf();
-    vertex->info() = VertexInfo(leaf, isBelow(leaf));
-  }
+  auto next = this->Inside->Cells.finite_vertices_begin();
+  forEachInOrder(execution, this->size(),
+    [&](std::size_t)
+    {
+      VertexInfo& info = next++->info();
+      info = VertexInfo(info.leaf(), isBelow(info.leaf()));
+    });
 }
 
 std::size_t PartialTriangulation::size() const

@@ -42,7 +42,7 @@ public:
     this->Isovalue = isovalue;
     const Summary root = this->collect(SampleTree<TSample>::rootNode, false);
     this->addUnlessKnown(root, SampleTree<TSample>::rootNode);
-    constexpr std::size_t grain = 2048;
+    constexpr std::size_t grain = 512;
     std::vector<std::size_t> wrong =
       collected<std::size_t>(this->Exec, { this->Places.size(), 8 * grain, grain },
         [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
@@ -83,6 +83,11 @@ private:
   /// @param isReached whether a sphere reached the node before it was split
   Summary collect(std::size_t nodeIndex, bool isReached)
   {
+    constexpr std::size_t batch = 4096;
+    if (this->Visits++ % batch == 0)
+    {
+      throwIfAborted(this->Exec);
+    }
     const Node<TSample>& node = this->Tree.nodes[nodeIndex];
     if (!this->Tree.hasOwn(node))
     {
@@ -150,6 +155,7 @@ private:
   const NodeMarks& Marks;
   LeafValues<TSample>& Values;
   double Isovalue = 0.0;
+  std::size_t Visits = 0; // of nodes
   std::vector<Place> Places;
   std::vector<std::size_t> Unsplit;
 };

@@ -32,10 +32,16 @@ constexpr bool operator!=(const BinaryIndex& a, const BinaryIndex& b)
 /// most 4 log2 n in all.
 constexpr int maximumDepth = 127;
 
-/// @throws std::length_error if the tree would exceed maximumDepth
+/// Thrown where samples need a larger tree than there can be; what() says how.
+struct TreeTooLarge : std::length_error
+{
+  using std::length_error::length_error;
+};
+
+/// @throws TreeTooLarge: the tree would exceed maximumDepth
 [[noreturn]] inline void throwTooDeep()
 {
-  throw std::length_error("the tree is deeper than 127 levels: nested duplicate points");
+  throw TreeTooLarge("the tree is deeper than 127 levels: nested duplicate points");
 }
 
 constexpr BinaryIndex lowerChild(const BinaryIndex& node)

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "Core/Base/Execution.h"
+#include "Core/Base/Lists.h"
 #include "Core/Base/RawArray.h"
 #include "Core/Base/Region.h"
 #include "Core/Base/Vector.h"
+#include "Core/Tree/BinaryIndex.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -214,19 +217,23 @@ bool searchRegion(
   return false;
 }
 
-/// Sorts disjoint nodes by their samples, in the order that all ranks share.
+/// Disjoint nodes, each once, by their samples, in the order that all ranks share. O(n log n)
+/// @throws std::bad_alloc, Aborted
 template <class TSample>
-void sortInTreeOrder(const SampleTree<TSample>& tree, std::vector<std::size_t>& nodes)
+std::vector<std::size_t> inTreeOrder(const Execution& execution, const SampleTree<TSample>& tree,
+  const std::vector<std::size_t>& nodes)
 {
-  std::vector<std::pair<std::size_t, std::size_t>> byBegin; // far faster than looking up begins
-  byBegin.reserve(nodes.size());
-  for (const std::size_t node : nodes)
-  {
-    byBegin.emplace_back(tree.nodes[node].begin, node);
-  }
-  std::sort(byBegin.begin(), byBegin.end());
-  std::transform(
-    byBegin.begin(), byBegin.end(), nodes.begin(), [](const auto& begin) { return begin.second; });
+  using Begin = std::pair<std::size_t, std::size_t>; // far faster than looking up begins
+  std::vector<Begin> byBegin(nodes.size());
+  forEachIndex(execution, nodes.size(),
+    [&](std::size_t i) {
+      byBegin[i] = { tree.nodes[nodes[i]].begin, nodes[i] };
+    });
+  byBegin = sortedUnique(
+    execution, byBegin, tree.samples.size(), [](const Begin& begin) { return begin.first; });
+  std::vector<std::size_t> ordered(byBegin.size());
+  forEachIndex(execution, ordered.size(), [&](std::size_t i) { ordered[i] = byBegin[i].second; });
+  return ordered;
 }
 
 inline std::size_t siblingOf(std::size_t nodeIndex)
@@ -235,7 +242,7 @@ inline std::size_t siblingOf(std::size_t nodeIndex)
 }
 
 /// Appends uninitialized pairs of nodes. @returns the number of the first one
-/// @throws std::bad_alloc, or std::length_error if ids cannot number the nodes; without effect then
+/// @throws std::bad_alloc, or TreeTooLarge if ids cannot number the nodes; without effect then
 template <class TSample>
 std::size_t appendPairs(SampleTree<TSample>& tree, std::size_t pairCount)
 {
@@ -243,7 +250,7 @@ std::size_t appendPairs(SampleTree<TSample>& tree, std::size_t pairCount)
   const std::size_t nodeCount = 2 * (first + pairCount);
   if (nodeCount > std::numeric_limits<typename TSample::Id>::max())
   {
-    throw std::length_error("the tree has more nodes than its ids can number");
+    throw TreeTooLarge("the tree has more nodes than its ids can number");
   }
   if (nodeCount > tree.nodes.size())
   {

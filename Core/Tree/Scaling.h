@@ -42,7 +42,7 @@ double greatestCoordinate(const SampleTree<TSample>& tree)
 template <class TSample>
 bool isOutOfScale(double greatest)
 {
-  constexpr int harmless = 200;
+  constexpr int harmless = 128;
   return !std::is_same_v<typename TSample::Coordinate, float> && greatest > 0.0 &&
          std::abs(std::ilogb(greatest)) > harmless;
 }

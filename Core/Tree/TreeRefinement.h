@@ -17,7 +17,7 @@ namespace isopoint
 /// Splits nodes further: small ones down to leaves, others by one treelet. The result is part of
 /// the canonical tree, whatever was split before.
 /// @param nodes node indices in any order, with repetitions; split nodes and leaves are skipped
-/// @throws std::bad_alloc, Aborted, or std::length_error (see NarrowBand)
+/// @throws std::bad_alloc, Aborted, or TreeTooLarge (see NarrowBand)
 template <class TSample>
 void splitFurther(
   const Execution& execution, SampleTree<TSample>& tree, std::vector<std::size_t> nodes)
@@ -30,28 +30,29 @@ void splitFurther(
     Region region;
   };
   constexpr std::size_t small = 512;
-  keepUnique(nodes);
+  nodes = sortedUnique(execution, nodes, tree.nodes.size());
   std::vector<Task> tasks;
   std::size_t pairs = 0;
-  for (const std::size_t index : nodes)
-  {
-    const Node<TSample>& node = tree.nodes[index];
-    if (node.isSplit() || node.isLeaf)
+  forEachInOrder(execution, nodes.size(),
+    [&](std::size_t i)
     {
-      continue;
-    }
-    const Path path = pathToNode(tree, index);
-    const int levels = std::min(
-      maximumDepth - path.depth, node.count() <= small ? levelsToHalve(small) + 1 : treeletLevels);
-    if (levels == 0)
-    {
-      throwTooDeep();
-    }
-    tasks.push_back({ index, pairs, levels, path.region });
-    pairs += maximumTreeletPairs(node.count(), levels);
-  }
+      const Node<TSample>& node = tree.nodes[nodes[i]];
+      if (node.isSplit() || node.isLeaf)
+      {
+        return;
+      }
+      const Path path = pathToNode(tree, nodes[i]);
+      const int levels = std::min(maximumDepth - path.depth,
+        node.count() <= small ? levelsToHalve(small) + 1 : treeletLevels);
+      if (levels == 0)
+      {
+        throwTooDeep();
+      }
+      tasks.push_back({ nodes[i], pairs, levels, path.region });
+      pairs += maximumTreeletPairs(node.count(), levels);
+    });
   const std::size_t firstPair = appendPairs(tree, pairs);
-  forBatches(execution, tasks.size(), 2048, 4,
+  forBatches(execution, tasks.size(), 512, 4,
     [&](std::size_t begin, std::size_t end)
     {
       TreeletSplitter<TSample> splitter(tree, 0);

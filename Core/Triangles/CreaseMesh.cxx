@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/Triangles/CreaseMesh.h"
 
+#include "Core/Base/Lists.h"
 #include "Core/Triangles/FacetMesh.h"
 #include "Core/Triangles/ShortEdges.h"
 #include "Core/Triangles/TriangleGeometry.h"
 
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <map>
 #include <utility>
 
 namespace isopoint
 {
 
-CreaseSurface::CreaseSurface(Isosurface& vertices)
+CreaseSurface::CreaseSurface(
+  const Execution& execution, Isosurface& vertices, const std::vector<SurfaceTriangle>& triangles)
   : surface(vertices)
+  , normals(vertices.fits.size())
 {
-  this->normals.reserve(vertices.size());
-  for (const LocalFit& fit : vertices.fits)
-  {
-    this->normals.push_back(-directionOf(fit.gradient));
-  }
+  forEachIndex(execution, this->normals.size(),
+    [this](std::size_t vertex)
+    { this->normals[vertex] = -directionOf(this->fitOf(vertex).gradient); });
 }
 
 Vector CreaseSurface::normalOf(std::initializer_list<std::size_t> vertices) const
@@ -135,7 +135,7 @@ bool slideAt(
 std::vector<Facet> untangleFacets(const Execution& execution, CreaseSurface& whole,
   std::vector<Facet> facets, std::size_t firstOnCrease)
 {
-  FacetMesh mesh(whole.surface.positions, whole.isInner, std::move(facets));
+  FacetMesh mesh(execution, whole.surface.positions, whole.isInner, std::move(facets));
   constexpr int maxRounds = 5;
   bool isAnyMerged = true;
   mesh.untangle();
@@ -177,21 +177,19 @@ std::vector<Facet> withoutShortEdges(
 {
   for (int round = 0; round < shortEdgeRounds; ++round)
   {
-    throwIfAborted(execution);
-    std::vector<SurfaceTriangle> triangles;
-    std::transform(facets.begin(), facets.end(), std::back_inserter(triangles),
-      [](const Facet& facet) { return facet.corners; });
-    FacetMesh mesh(whole.surface.positions, whole.isInner, std::move(facets));
+    std::vector<SurfaceTriangle> triangles(facets.size());
+    forEachIndex(
+      execution, facets.size(), [&](std::size_t i) { triangles[i] = facets[i].corners; });
+    FacetMesh mesh(
+      execution, whole.surface.positions, whole.isInner, std::move(facets));
     const auto staysOnPiece = [&](const Facet& moved)
     {
       constexpr double minCosine = 0.95;
-      const auto& [a, b, c] = moved.corners;
-      const std::vector<Vector>& positions = whole.surface.positions;
-      const double area = lengthOf(cross(positions[b] - positions[a], positions[c] - positions[a]));
-      return mesh.signedArea(moved) >= minCosine * area;
+      return mesh.signedArea(moved) >= minCosine * lengthOf(mesh.areaNormal(moved.corners));
     };
-    for (const auto& [a, b] : shortEdges(whole.surface.positions, triangles))
+    for (const auto& [a, b] : shortEdges(execution, whole.surface.positions, triangles))
     {
+      throwIfAborted(execution);
       for (const auto& [from, to] : { std::pair(b, a), std::pair(a, b) })
       {
         if (mesh.facetAt(from, to) && isOnPiecesOf(mesh, to, from) &&
@@ -212,7 +210,7 @@ public:
   CreaseMesher(
     const Execution& execution, Isosurface& surface, std::vector<SurfaceTriangle>& triangles)
     : Exec(execution)
-    , Whole(surface)
+    , Whole(execution, surface, triangles)
     , Triangles(triangles)
   {
   }
@@ -235,10 +233,8 @@ public:
     {
       this->partCreases(facets);
     }
-    for (const Facet& facet : facets)
-    {
-      this->Triangles.push_back(facet.corners);
-    }
+    forEachInOrder(this->Exec, facets.size(),
+      [&](std::size_t i) { this->Triangles.push_back(facets[i].corners); });
     this->order();
   }
 
@@ -246,18 +242,23 @@ private:
   /// Removes the triangles next to creases, and those around them, from the surface.
   std::vector<Facet> takeFacets()
   {
-    const std::vector<char> areNear = areAtCreases(this->Whole.surface.fits, this->Triangles);
+    const std::vector<char> areNear =
+      areAtCreases(this->Exec, this->Whole.surface.fits, this->Triangles);
     this->Whole.isInner.assign(areNear.begin(), areNear.end());
-    const auto end = std::stable_partition(this->Triangles.begin(), this->Triangles.end(),
-      [&](const SurfaceTriangle& triangle)
-      {
-        return std::none_of(triangle.begin(), triangle.end(),
-          [&](std::size_t corner) { return areNear[corner] != 0; });
-      });
     std::vector<Facet> facets;
-    std::transform(end, this->Triangles.end(), std::back_inserter(facets),
-      [this](const SurfaceTriangle& triangle) { return this->Whole.facetOf(triangle); });
-    this->Triangles.erase(end, this->Triangles.end());
+    std::vector<char> areTaken(this->Triangles.size(), 0);
+    forEachInOrder(this->Exec, areTaken.size(),
+      [&](std::size_t i)
+      {
+        const SurfaceTriangle& triangle = this->Triangles[i];
+        if (std::any_of(triangle.begin(), triangle.end(),
+              [&](std::size_t corner) { return areNear[corner] != 0; }))
+        {
+          areTaken[i] = 1;
+          facets.push_back(this->Whole.facetOf(triangle));
+        }
+      });
+    dropMarked(this->Exec, areTaken, this->Triangles);
     return facets;
   }
 
@@ -265,16 +266,18 @@ private:
   void partCreases(std::vector<Facet>& facets)
   {
     std::map<std::size_t, std::vector<std::size_t>> copies; // of each vertex
-    for (Facet& facet : facets)
-    {
-      for (std::size_t& corner : facet.corners)
+    forEachInOrder(this->Exec, facets.size(),
+      [&](std::size_t i)
       {
-        if (dot(this->Whole.normals[corner], facet.normal) < maxPartedCosine)
+        Facet& facet = facets[i];
+        for (std::size_t& corner : facet.corners)
         {
-          corner = this->copyOf(corner, facet.normal, copies[corner]);
+          if (dot(this->Whole.normals[corner], facet.normal) < maxPartedCosine)
+          {
+            corner = this->copyOf(corner, facet.normal, copies[corner]);
+          }
         }
-      }
-    }
+      });
   }
 
   std::size_t copyOf(std::size_t vertex, const Vector& normal, std::vector<std::size_t>& copies)
@@ -296,7 +299,7 @@ private:
   void order()
   {
     Isosurface& surface = this->Whole.surface;
-    const std::vector<std::size_t> kept = verticesOf(this->Triangles, surface.size());
+    const std::vector<std::size_t> kept = verticesOf(this->Exec, this->Triangles, surface.size());
     this->Triangles = renumbered(this->Exec, this->Triangles, kept, surface.size());
     if (kept.size() < surface.size())
     {
@@ -311,21 +314,23 @@ private:
 
 } // namespace
 
-std::vector<char> areAtCreases(
-  const std::vector<LocalFit>& fits, const std::vector<SurfaceTriangle>& triangles)
+std::vector<char> areAtCreases(const Execution& execution, const std::vector<LocalFit>& fits,
+  const std::vector<SurfaceTriangle>& triangles)
 {
   std::vector<char> areAtCrease(fits.size(), 0);
-  for (const SurfaceTriangle& triangle : triangles)
-  {
-    if (std::any_of(triangle.begin(), triangle.end(),
-          [&](std::size_t corner) { return fits[corner].order == FitOrder::Crease; }))
+  forEachInOrder(execution, triangles.size(),
+    [&](std::size_t i)
     {
-      for (const std::size_t corner : triangle)
+      const SurfaceTriangle& triangle = triangles[i];
+      if (std::any_of(triangle.begin(), triangle.end(),
+            [&](std::size_t corner) { return fits[corner].order == FitOrder::Crease; }))
       {
-        areAtCrease[corner] = 1;
+        for (const std::size_t corner : triangle)
+        {
+          areAtCrease[corner] = 1;
+        }
       }
-    }
-  }
+    });
   return areAtCrease;
 }
 

@@ -19,7 +19,9 @@ namespace isopoint
 struct CreaseSurface
 {
   /// @param vertices with fits
-  explicit CreaseSurface(Isosurface& vertices);
+  /// @throws std::bad_alloc, Aborted
+  CreaseSurface(const Execution& execution, Isosurface& vertices,
+    const std::vector<SurfaceTriangle>& triangles);
 
   const LocalFit& fitOf(std::size_t vertex) const { return this->surface.fits[vertex]; }
   bool isFitted(std::size_t vertex) const { return this->fitOf(vertex).order.has_value(); }
@@ -53,9 +55,9 @@ struct CreaseSurface
 
 /// Marks the vertices of triangles at which fits found a crease. O(triangles)
 /// @param fits of all vertices
-/// @throws std::bad_alloc
-std::vector<char> areAtCreases(
-  const std::vector<LocalFit>& fits, const std::vector<SurfaceTriangle>& triangles);
+/// @throws std::bad_alloc, Aborted
+std::vector<char> areAtCreases(const Execution& execution, const std::vector<LocalFit>& fits,
+  const std::vector<SurfaceTriangle>& triangles);
 
 /// Adds the sharp edges and corners that fits with creases found, as extended marching cubes does
 /// [KBSS01]: edges between different pieces get a vertex on the crease, triangles on three pieces

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <utility>
@@ -36,53 +37,54 @@ public:
   /// Merges lost vertices with the nearest neighbor that inverts no triangle. Sets Pieces.
   std::vector<Facet> withoutLost(std::vector<Facet> facets)
   {
-    FacetMesh mesh(this->Whole.surface.positions, this->Whole.isInner, std::move(facets));
-    for (std::size_t vertex = 0; vertex < this->Whole.isInner.size(); ++vertex)
-    {
-      this->throwIfAbortedAt(vertex);
-      if (this->Whole.isInner[vertex] && this->isLost(vertex, mesh.neighborsOf(vertex)))
+    FacetMesh mesh(this->Exec, this->Whole.surface.positions, this->Whole.isInner,
+      std::move(facets));
+    forEachInOrder(this->Exec, this->Whole.isInner.size(),
+      [&](std::size_t vertex)
       {
-        this->mergeWithNearest(mesh, vertex);
-      }
-    }
+        if (this->Whole.isInner[vertex] && this->isLost(vertex, mesh.neighborsOf(vertex)))
+        {
+          this->mergeWithNearest(mesh, vertex);
+        }
+      });
     this->Pieces.resize(this->Whole.isInner.size());
-    for (std::size_t vertex = 0; vertex < this->Whole.isInner.size(); ++vertex)
-    {
-      this->throwIfAbortedAt(vertex);
-      this->Pieces[vertex] = this->Whole.isInner[vertex] ? this->pieceOf(mesh, vertex) : vertex;
-    }
+    forEachIndex(this->Exec, this->Pieces.size(),
+      [&](std::size_t vertex) {
+        this->Pieces[vertex] = this->Whole.isInner[vertex] ? this->pieceOf(mesh, vertex) : vertex;
+      });
     return mesh.facets();
   }
 
   std::vector<Facet> split(const std::vector<Facet>& facets)
   {
     std::vector<Edge> edges;
-    for (const Facet& facet : facets)
-    {
-      for (std::size_t i = 0; i < 3; ++i)
+    forEachInOrder(this->Exec, facets.size(),
+      [&](std::size_t facet)
       {
-        const Edge edge = std::minmax({ facet.corners[i], facet.corners[(i + 1) % 3] });
-        if (this->isAcrossCrease(edge.first, edge.second))
+        const SurfaceTriangle& corners = facets[facet].corners;
+        for (std::size_t i = 0; i < 3; ++i)
         {
-          edges.push_back(edge);
+          const Edge edge = std::minmax({ corners[i], corners[(i + 1) % 3] });
+          if (this->isAcrossCrease(edge.first, edge.second))
+          {
+            edges.push_back(edge);
+          }
         }
-      }
-    }
-    keepUnique(edges);
-    for (std::size_t i = 0; i < edges.size(); ++i)
-    {
-      this->throwIfAbortedAt(i);
-      const auto& [a, b] = edges[i];
-      if (const std::optional<Vector> place = this->placeOnCrease(a, b))
+      });
+    edges = sortedUnique(this->Exec, edges, this->Whole.surface.size(),
+      [](const Edge& edge) { return static_cast<std::uint64_t>(edge.first); });
+    forEachInOrder(this->Exec, edges.size(),
+      [&](std::size_t i)
       {
-        this->OnCreases[{ a, b }] = this->Whole.addVertex(a, *place, { a, b });
-      }
-    }
+        const auto& [a, b] = edges[i];
+        if (const std::optional<Vector> place = this->placeOnCrease(a, b))
+        {
+          this->OnCreases[{ a, b }] = this->Whole.addVertex(a, *place, { a, b });
+        }
+      });
     std::vector<Facet> parts;
-    for (const Facet& facet : facets)
-    {
-      this->addParts(facet, parts);
-    }
+    forEachInOrder(
+      this->Exec, facets.size(), [&](std::size_t i) { this->addParts(facets[i], parts); });
     return parts;
   }
 
@@ -182,16 +184,6 @@ private:
     return isFinite(place) && lengthOf(place - center) <= maxCornerOffset * longest
              ? std::optional(place)
              : std::nullopt;
-  }
-
-  /// Checks for an abort at each 1024th number.
-  void throwIfAbortedAt(std::size_t count) const
-  {
-    constexpr std::size_t batch = 1024;
-    if (count % batch == 0)
-    {
-      throwIfAborted(this->Exec);
-    }
   }
 
   /// Whether a vertex's piece is unknown: it has no fit, or a smooth fit that disagrees with all

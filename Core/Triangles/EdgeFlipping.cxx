@@ -57,24 +57,24 @@ public:
     bool isAnyFlipped = true;
     for (int round = 0; round < maxRounds && isAnyFlipped; ++round)
     {
-      throwIfAborted(this->Exec);
       isAnyFlipped = false;
-      for (Side side = 0; side < this->Twins.size(); ++side)
-      {
-        const Side twin = this->Twins[side];
-        if (!isSuspect[side] || twin == noSide)
+      forEachInOrder(this->Exec, this->Twins.size(),
+        [&](Side side)
         {
-          continue;
-        }
-        isSuspect[side] = isSuspect[twin] = 0;
-        if (this->isToFlip(side, twin))
-        {
-          this->flipAt(side, twin);
-          this->suspectAround(side, isSuspect);
-          this->suspectAround(twin, isSuspect);
-          isAnyFlipped = true;
-        }
-      }
+          const Side twin = this->Twins[side];
+          if (!isSuspect[side] || twin == noSide)
+          {
+            return;
+          }
+          isSuspect[side] = isSuspect[twin] = 0;
+          if (this->isToFlip(side, twin))
+          {
+            this->flipAt(side, twin);
+            this->suspectAround(side, isSuspect);
+            this->suspectAround(twin, isSuspect);
+            isAnyFlipped = true;
+          }
+        });
     }
   }
 
@@ -84,15 +84,20 @@ private:
 
   std::size_t oppositeOf(Side side) const { return this->startOf(lastOf(side)); }
 
+  Vector edgeOf(std::size_t from, std::size_t to) const
+  {
+    return this->Positions[to] - this->Positions[from];
+  }
+
   Vector normalOf(std::size_t a, std::size_t b, std::size_t c) const
   {
-    return cross(this->Positions[b] - this->Positions[a], this->Positions[c] - this->Positions[a]);
+    return cross(this->edgeOf(a, b), this->edgeOf(a, c));
   }
 
   /// Pairs the sides of edges with exactly two triangles.
   void findTwins()
   {
-    const ItemLists byLowerEnd(this->Positions.size(), this->Twins.size(),
+    const ItemLists byLowerEnd(this->Exec, this->Positions.size(), this->Twins.size(),
       [this](Side side) { return std::array{ std::min(this->startOf(side), this->endOf(side)) }; });
     forEachIndex(this->Exec, this->Positions.size(),
       [&](std::size_t vertex)
@@ -121,15 +126,17 @@ private:
   /// Sets the area-weighted normals of vertices, and their degrees.
   void findNormals()
   {
-    for (const auto& [a, b, c] : this->Triangles)
-    {
-      const Vector normal = this->normalOf(a, b, c);
-      for (const std::size_t vertex : { a, b, c })
+    forEachInOrder(this->Exec, this->Triangles.size(),
+      [this](std::size_t triangle)
       {
-        this->Normals[vertex] += normal;
-        ++this->Degrees[vertex];
-      }
-    }
+        const auto& [a, b, c] = this->Triangles[triangle];
+        const Vector normal = this->normalOf(a, b, c);
+        for (const std::size_t vertex : { a, b, c })
+        {
+          this->Normals[vertex] += normal;
+          ++this->Degrees[vertex];
+        }
+      });
     forEachIndex(this->Exec, this->Normals.size(),
       [this](std::size_t vertex)
       {
@@ -155,8 +162,8 @@ private:
   {
     const auto angleAt = [&](std::size_t corner)
     {
-      const Vector toA = this->Positions[a] - this->Positions[corner];
-      const Vector toB = this->Positions[b] - this->Positions[corner];
+      const Vector toA = this->edgeOf(corner, a);
+      const Vector toB = this->edgeOf(corner, b);
       return std::array{ dot(toA, toB), lengthOf(cross(toA, toB)) }; // cosine, sine
     };
     const auto [cosC, sinC] = angleAt(c);

@@ -74,14 +74,14 @@ std::vector<std::size_t> orderOfEdges(
   {
     std::size_t vertex;
   };
-  std::vector<EdgeVertex> vertices;
-  vertices.reserve(triangles.positions.size());
+  std::vector<EdgeVertex> vertices(triangles.positions.size());
   std::uint64_t most = 0;
-  for (std::size_t vertex = 0; vertex < triangles.positions.size(); ++vertex)
-  {
-    vertices.push_back({ triangles.edges[triangles.edgeBegin(vertex)], vertex });
-    most = std::max(most, vertices.back().first);
-  }
+  forEachInOrder(execution, vertices.size(),
+    [&](std::size_t vertex)
+    {
+      vertices[vertex] = { triangles.edges[triangles.edgeBegin(vertex)], vertex };
+      most = std::max(most, vertices[vertex].first);
+    });
   vertices = sortedUnique(
     execution, vertices, most + 1, [](const EdgeVertex& vertex) { return vertex.first; });
   std::vector<std::size_t> order(vertices.size());
@@ -96,7 +96,7 @@ EdgeTriangles<TSample> inOrder(const Execution& execution, const EdgeTriangles<T
 {
   EdgeTriangles<TSample> result;
   std::vector<std::size_t> edges;
-  result.edgeBegins = chosenLists(triangles.edgeBegins, order, edges);
+  result.edgeBegins = chosenLists(execution, triangles.edgeBegins, order, edges);
   result.edges = chosenOf(execution, triangles.edges, triangles.edgeBegins.empty() ? order : edges);
   result.positions = chosenOf(execution, triangles.positions, order);
   result.triangles = renumbered(execution, triangles.triangles, order, order.size());

@@ -60,7 +60,7 @@ public:
   {
   }
 
-  /// @throws Aborted, std::bad_alloc, or std::length_error (see NarrowBand); the tree stays usable
+  /// @throws Aborted, std::bad_alloc, or TreeTooLarge (see NarrowBand); the tree stays usable
   TriangleSurface extract()
   {
     if (this->Tree.isEmpty())
@@ -101,7 +101,7 @@ public:
     std::vector<CrossingTetrahedron<Id>> found = finder.find(nodes);
     if (!this->Request.keepsTetrahedra)
     {
-      this->Kept.reset();
+      dropTetrahedra(execution, this->Kept);
     }
     this->Counts = finder.counts();
     return found;
@@ -144,11 +144,11 @@ private:
     {
       std::vector<LocalFit> fits =
         this->fitTo(partOf(execution, 0.0, fitsEnd), context, marched, {});
-      areKept = areAtCreases(fits, marched.triangles);
-      for (const std::size_t vertex : markedOf(areKept))
-      {
-        kept.emplace(marched.edges[vertex], std::move(fits[vertex]));
-      }
+      areKept = areAtCreases(execution, fits, marched.triangles);
+      const std::vector<std::size_t> vertices = markedOf(execution, areKept);
+      forEachInOrder(execution, vertices.size(),
+        [&](std::size_t i)
+        { kept.emplace(marched.edges[vertices[i]], std::move(fits[vertices[i]])); });
     }
     return withMergedVertices(
       partOf(execution, fitsEnd, 1.0), std::move(marched), std::move(areKept));
@@ -164,26 +164,22 @@ private:
       return this->Ranks.fitShared(execution, context, *this->Request.fit, edges, mesh.positions);
     }
     std::vector<LocalFit> fits(edges.size());
-    std::vector<std::size_t> unknown;
-    for (std::size_t vertex = 0; vertex < edges.size(); ++vertex)
-    {
-      const auto found = known.find(edges[vertex]);
-      if (found != known.end())
+    std::vector<char> areUnknown(edges.size(), 0);
+    forEachIndex(execution, edges.size(),
+      [&](std::size_t vertex)
       {
-        fits[vertex] = found->second;
-      }
-      else
-      {
-        unknown.push_back(vertex);
-      }
-    }
+        const auto found = known.find(edges[vertex]);
+        if (found != known.end())
+        {
+          fits[vertex] = found->second;
+        }
+        areUnknown[vertex] = found == known.end() ? 1 : 0;
+      });
+    const std::vector<std::size_t> unknown = markedOf(execution, areUnknown);
     const std::vector<LocalFit> others =
       this->Ranks.fitShared(execution, context, *this->Request.fit,
         chosenOf(this->Exec, edges, unknown), chosenOf(this->Exec, mesh.positions, unknown));
-    for (std::size_t i = 0; i < unknown.size(); ++i)
-    {
-      fits[unknown[i]] = others[i];
-    }
+    forEachIndex(execution, unknown.size(), [&](std::size_t i) { fits[unknown[i]] = others[i]; });
     return fits;
   }
 
@@ -191,7 +187,7 @@ private:
   {
     this->Ranks.order(found);
     const std::size_t count = found.size();
-    dropMarked(
+    dropMarked(execution,
       GapTetrahedraFinder<TSample, TRanks>(execution, this->Tree, this->Ranks, found).find(),
       found);
     this->Dropped = count - found.size();
@@ -231,8 +227,9 @@ private:
     std::vector<Vector> positions = mesh.positions;
     forEachIndex(this->Exec, fits.size(),
       [&](std::size_t vertex) { positions[vertex] = fits[vertex].position; });
-    const std::vector<char> areKept = this->hasCreases() ? areAtCreases(fits, mesh.triangles)
-                                                         : std::vector<char>(positions.size(), 0);
+    const std::vector<char> areKept = this->hasCreases()
+                                        ? areAtCreases(this->Exec, fits, mesh.triangles)
+                                        : std::vector<char>(positions.size(), 0);
     flipEdges(this->Exec, positions, areKept, mesh.triangles);
   }
 

@@ -11,17 +11,15 @@
 namespace isopoint
 {
 
-FacetMesh::FacetMesh(
-  const std::vector<Vector>& positions, const std::vector<bool>& isInner, std::vector<Facet> facets)
-  : Positions(positions)
+FacetMesh::FacetMesh(const Execution& execution, const std::vector<Vector>& positions,
+  const std::vector<bool>& isInner, std::vector<Facet> facets)
+  : Exec(execution)
+  , Positions(positions)
   , IsInner(isInner)
   , Facets(std::move(facets))
   , IsRemoved(this->Facets.size(), false)
 {
-  for (std::size_t i = 0; i < this->Facets.size(); ++i)
-  {
-    this->connect(i);
-  }
+  forEachInOrder(this->Exec, this->Facets.size(), [this](std::size_t i) { this->connect(i); });
 }
 
 void FacetMesh::replace(SurfaceTriangle& corners, std::size_t vertex, std::size_t by)
@@ -69,11 +67,15 @@ bool FacetMesh::hasEdge(std::size_t a, std::size_t b) const
   return this->Edges.count({ a, b }) > 0 || this->Edges.count({ b, a }) > 0;
 }
 
+Vector FacetMesh::areaNormal(const SurfaceTriangle& triangle) const
+{
+  const auto& [a, b, c] = triangle;
+  return cross(this->Positions[b] - this->Positions[a], this->Positions[c] - this->Positions[a]);
+}
+
 double FacetMesh::signedArea(const Facet& facet) const
 {
-  const auto& [a, b, c] = facet.corners;
-  return dot(facet.normal,
-    cross(this->Positions[b] - this->Positions[a], this->Positions[c] - this->Positions[a]));
+  return dot(facet.normal, this->areaNormal(facet.corners));
 }
 
 double FacetMesh::invertedArea(const Facet& a, const Facet& b) const
@@ -83,15 +85,8 @@ double FacetMesh::invertedArea(const Facet& a, const Facet& b) const
 
 std::vector<std::size_t> FacetMesh::invertedFacets() const
 {
-  std::vector<std::size_t> inverted;
-  for (std::size_t i = 0; i < this->Facets.size(); ++i)
-  {
-    if (this->isInverted(i))
-    {
-      inverted.push_back(i);
-    }
-  }
-  return inverted;
+  return itemsThat(
+    this->Exec, this->Facets.size(), [this](std::size_t i) { return this->isInverted(i); });
 }
 
 void FacetMesh::untangle()
@@ -102,20 +97,22 @@ void FacetMesh::untangle()
   {
     std::vector<std::size_t> changed;
     bool isAnyFlipped = false;
-    for (const std::size_t facet : inverted)
-    {
-      if (this->signedArea(this->Facets[facet]) < 0.0)
+    forEachInOrder(this->Exec, inverted.size(),
+      [&](std::size_t i)
       {
-        changed.push_back(facet);
-        if (const std::optional<std::size_t> other = this->flipBest(facet))
+        const std::size_t facet = inverted[i];
+        if (this->signedArea(this->Facets[facet]) < 0.0)
         {
-          changed.push_back(*other);
-          isAnyFlipped = true;
+          changed.push_back(facet);
+          if (const std::optional<std::size_t> other = this->flipBest(facet))
+          {
+            changed.push_back(*other);
+            isAnyFlipped = true;
+          }
         }
-      }
-    }
-    keepUnique(changed);
-    inverted = isAnyFlipped ? std::move(changed) : std::vector<std::size_t>();
+      });
+    inverted = isAnyFlipped ? sortedUnique(this->Exec, changed, this->Facets.size())
+                            : std::vector<std::size_t>();
   }
 }
 
@@ -256,13 +253,14 @@ double FacetMesh::invertedAreaAround(std::size_t vertex) const
 std::vector<Facet> FacetMesh::facets() const
 {
   std::vector<Facet> left;
-  for (std::size_t i = 0; i < this->Facets.size(); ++i)
-  {
-    if (!this->IsRemoved[i])
+  forEachInOrder(this->Exec, this->Facets.size(),
+    [&](std::size_t i)
     {
-      left.push_back(this->Facets[i]);
-    }
-  }
+      if (!this->IsRemoved[i])
+      {
+        left.push_back(this->Facets[i]);
+      }
+    });
   return left;
 }
 

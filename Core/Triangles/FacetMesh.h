@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "Core/Base/Execution.h"
 #include "Core/Base/Vector.h"
 #include "Core/Triangles/TriangleGeometry.h"
 
@@ -26,14 +27,15 @@ struct Facet
 class FacetMesh
 {
 public:
-  /// @param positions of all vertices, owned by the caller
+  /// @param execution, positions of all vertices, isInner owned by the caller
   /// @param isInner for each vertex, whether all triangles around it are facets
-  /// @throws std::bad_alloc
-  FacetMesh(const std::vector<Vector>& positions, const std::vector<bool>& isInner,
-    std::vector<Facet> facets);
+  /// @throws std::bad_alloc, Aborted
+  FacetMesh(const Execution& execution, const std::vector<Vector>& positions,
+    const std::vector<bool>& isInner, std::vector<Facet> facets);
 
   /// Flips edges between facets with similar normals while this reduces the inverted area.
   /// Complexity: O(facets), mostly
+  /// @throws std::bad_alloc, Aborted
   void untangle();
 
   /// Moves a vertex onto a neighbor across an inner, manifold edge, and drops the facets between
@@ -64,6 +66,7 @@ public:
   /// In ascending order.
   std::vector<std::size_t> neighborsOf(std::size_t vertex) const;
 
+  /// Ascending. @throws std::bad_alloc, Aborted
   std::vector<std::size_t> invertedFacets() const;
 
   /// The facet with a directed edge, if there is exactly one.
@@ -82,13 +85,16 @@ public:
     return !this->IsRemoved[index] && this->signedArea(this->Facets[index]) < 0.0;
   }
 
+  /// The normal of a triangle, as long as twice its area.
+  Vector areaNormal(const SurfaceTriangle& triangle) const;
+
   /// Twice the area of a facet, negative if it is inverted.
   double signedArea(const Facet& facet) const;
 
   /// Twice the area of the inverted facets around a vertex.
   double invertedAreaAround(std::size_t vertex) const;
 
-  /// The remaining facets.
+  /// The remaining facets. @throws std::bad_alloc, Aborted
   std::vector<Facet> facets() const;
 
 private:
@@ -117,6 +123,7 @@ private:
 
   double invertedArea(const Facet& a, const Facet& b) const;
 
+  const Execution& Exec;
   const std::vector<Vector>& Positions;
   const std::vector<bool>& IsInner;
   std::vector<Facet> Facets;

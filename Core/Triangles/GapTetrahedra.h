@@ -67,12 +67,13 @@ public:
 
   /// O(tetrahedra at a corner), O(n) for the first call. @throws std::bad_alloc
   template <class Visit>
-  void forEachNeighbor(std::size_t tetrahedron, const Visit& visit)
+  void forEachNeighbor(const Execution& execution, std::size_t tetrahedron, const Visit& visit)
   {
     if (!this->AtLeaves)
     {
       this->AtLeaves.emplace(
-        this->Tree.nodes.size(), this->Tetrahedra.size(), [this](std::size_t item) -> const auto& {
+        execution, this->Tree.nodes.size(),
+        this->Tetrahedra.size(), [this](std::size_t item) -> const auto& {
           return this->Tetrahedra[item].corners;
         });
     }
@@ -157,27 +158,19 @@ private:
   /// The tetrahedra from which gaps spread: those rejected by the strong criterion or at the hull.
   std::vector<std::size_t> seeds()
   {
-    std::vector<std::size_t> candidates;
     const std::vector<char> isDense = this->denseLeaves();
-    for (std::size_t i = 0; i < this->Tetrahedra.size(); ++i)
-    {
-      const auto& corners = this->Tetrahedra[i].corners;
-      if (std::count_if(corners.begin(), corners.end(),
-            [&](Id leaf) { return isDense[static_cast<std::size_t>(leaf)] != 0; }) >= 2)
+    const std::vector<std::size_t> candidates = itemsThat(this->Exec, this->Tetrahedra.size(),
+      [&](std::size_t i)
       {
-        candidates.push_back(i);
-      }
-    }
+        const auto& corners = this->Tetrahedra[i].corners;
+        return std::count_if(corners.begin(), corners.end(),
+                 [&](Id leaf) { return isDense[static_cast<std::size_t>(leaf)] != 0; }) >= 2;
+      });
     std::vector<std::size_t> seeds = this->Spread.rejectedAmong(GapCriterion::strong(), candidates);
-    for (std::size_t i = 0; i < this->Tetrahedra.size(); ++i)
-    {
-      if (this->Tetrahedra[i].isAtHull)
-      {
-        seeds.push_back(i);
-      }
-    }
-    keepUnique(seeds);
-    return seeds;
+    const std::vector<std::size_t> atHull = itemsThat(this->Exec, this->Tetrahedra.size(),
+      [&](std::size_t i) { return this->Tetrahedra[i].isAtHull; });
+    seeds.insert(seeds.end(), atHull.begin(), atHull.end());
+    return sortedUnique(this->Exec, seeds, this->Tetrahedra.size());
   }
 
   /// Marks, by node, the leaves whose longest edge the strong criterion may reject. Clouds without
@@ -185,15 +178,10 @@ private:
   std::vector<char> denseLeaves()
   {
     const std::vector<std::atomic<double>> longest = this->longestEdges(); // at each leaf, by node
-    std::vector<std::size_t> corners; // in the same order on all ranks
-    for (std::size_t leaf = 0; leaf < longest.size(); ++leaf)
-    {
-      if (longest[leaf] > 0.0)
-      {
-        corners.push_back(leaf);
-      }
-    }
-    sortInTreeOrder(this->Tree, corners);
+    const std::vector<std::size_t> corners = // in the same order on all ranks
+      inTreeOrder(this->Exec, this->Tree,
+        itemsThat(this->Exec, longest.size(),
+          [&longest](std::size_t leaf) { return longest[leaf] > 0.0; }));
     std::vector<char> marks(corners.size(), 0);
     constexpr std::size_t grain = 256;
     this->Ranks.forEach(
@@ -208,13 +196,11 @@ private:
                      : 0;
       },
       this->Exec.progress);
-    std::vector<std::size_t> dense = markedOf(marks);
+    std::vector<std::size_t> dense = markedOf(this->Exec, marks);
     this->Ranks.unite(dense);
     std::vector<char> marksOfNodes(longest.size(), 0);
-    for (const std::size_t i : dense)
-    {
-      marksOfNodes[corners[i]] = 1;
-    }
+    forEachInOrder(
+      this->Exec, dense.size(), [&](std::size_t i) { marksOfNodes[corners[dense[i]]] = 1; });
     return marksOfNodes;
   }
 
@@ -257,29 +243,27 @@ private:
   std::vector<char> withFragments(std::vector<char> isInGap)
   {
     std::vector<std::size_t> fragments;
-    for (std::size_t i = 0; i < this->Tetrahedra.size(); ++i)
-    {
-      // Everything next to a gap was reached.
-      if (this->Spread.isReached()[i] && !isInGap[i] && this->isBesideGap(i))
+    forEachInOrder(this->Exec, this->Tetrahedra.size(),
+      [&](std::size_t i)
       {
-        const std::vector<std::size_t> piece = this->pieceAround(i, isInGap);
-        if (piece.size() < smallestPiece)
+        // Everything next to a gap was reached.
+        if (this->Spread.isReached()[i] && !isInGap[i] && this->isBesideGap(i))
         {
-          fragments.insert(fragments.end(), piece.begin(), piece.end());
+          const std::vector<std::size_t> piece = this->pieceAround(i, isInGap);
+          if (piece.size() < smallestPiece)
+          {
+            fragments.insert(fragments.end(), piece.begin(), piece.end());
+          }
         }
-      }
-    }
-    for (const std::size_t i : fragments)
-    {
-      isInGap[i] = 1;
-    }
+      });
+    forEachInOrder(this->Exec, fragments.size(), [&](std::size_t i) { isInGap[fragments[i]] = 1; });
     return isInGap;
   }
 
   bool isBesideGap(std::size_t tetrahedron)
   {
     bool isBeside = false;
-    this->Parts.forEachNeighbor(tetrahedron,
+    this->Parts.forEachNeighbor(this->Exec, tetrahedron,
       [&](std::size_t neighbor) { isBeside = isBeside || this->Spread.isInGap()[neighbor] != 0; });
     return isBeside;
   }
@@ -290,7 +274,7 @@ private:
     std::vector<std::size_t> piece{ tetrahedron };
     for (std::size_t i = 0; i < piece.size() && piece.size() < smallestPiece; ++i)
     {
-      this->Parts.forEachNeighbor(piece[i],
+      this->Parts.forEachNeighbor(this->Exec, piece[i],
         [&](std::size_t neighbor)
         {
           if (!isInGap[neighbor] && piece.size() < smallestPiece &&

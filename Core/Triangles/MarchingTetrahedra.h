@@ -83,22 +83,24 @@ private:
   void numberLeaves()
   {
     std::vector<bool> isCorner(this->Tree.nodes.size(), false);
-    for (const CrossingTetrahedron<Id>& tetrahedron : this->Tetrahedra)
-    {
-      for (const Id corner : tetrahedron.corners)
+    forEachInOrder(this->Exec, this->Tetrahedra.size(),
+      [&](std::size_t i)
       {
-        isCorner[static_cast<std::size_t>(corner)] = true;
-      }
-    }
-    std::vector<std::size_t> leaves = markedOf(isCorner);
-    sortInTreeOrder(this->Tree, leaves);
-    this->Leaves.reserve(leaves.size());
+        for (const Id corner : this->Tetrahedra[i].corners)
+        {
+          isCorner[static_cast<std::size_t>(corner)] = true;
+        }
+      });
+    const std::vector<std::size_t> leaves =
+      inTreeOrder(this->Exec, this->Tree, markedOf(this->Exec, isCorner));
+    this->Leaves.resize(leaves.size());
     this->NumberOf.resize(this->Tree.nodes.size());
-    for (const std::size_t leaf : leaves)
-    {
-      this->NumberOf[leaf] = static_cast<Id>(this->Leaves.size());
-      this->Leaves.push_back(static_cast<Id>(leaf));
-    }
+    forEachIndex(this->Exec, leaves.size(),
+      [&](std::size_t number)
+      {
+        this->NumberOf[leaves[number]] = static_cast<Id>(number);
+        this->Leaves[number] = static_cast<Id>(leaves[number]);
+      });
   }
 
   std::size_t leafOf(Id number) const
@@ -221,31 +223,33 @@ private:
         vertex = edge;
       }
     };
-    std::vector<std::pair<std::size_t, Id>> merged;
-    for (std::size_t i = 0; i < this->Edges.size(); ++i)
+    const auto endOf = [this](std::size_t edge)
     {
-      if (this->Ends[i] != End::Neither)
-      {
-        const auto& [lower, upper] = this->Pairs[i];
-        const Id end = this->Ends[i] == End::Lower ? lower : upper;
-        add(end, i);
-        merged.emplace_back(i, end);
-      }
-    }
-    for (const auto& [edge, end] : merged)
-    {
-      this->VertexOf[edge] = vertexAt.at(end);
-    }
+      const auto& [lower, upper] = this->Pairs[edge];
+      return this->Ends[edge] == End::Lower ? lower : upper;
+    };
+    const std::vector<std::size_t> merged = itemsThat(this->Exec, this->Edges.size(),
+      [this](std::size_t edge) { return this->Ends[edge] != End::Neither; });
+    forEachInOrder(
+      this->Exec, merged.size(), [&](std::size_t i) { add(endOf(merged[i]), merged[i]); });
+    forEachIndex(this->Exec, merged.size(),
+      [&](std::size_t i) { this->VertexOf[merged[i]] = vertexAt.at(endOf(merged[i])); });
   }
 
   void indexPairs()
   {
     this->PairBegins.assign(this->Leaves.size() + 1, 0);
-    for (const LeafPair& pair : this->Pairs)
-    {
-      ++this->PairBegins[static_cast<std::size_t>(pair.first) + 1];
-    }
-    std::partial_sum(this->PairBegins.begin(), this->PairBegins.end(), this->PairBegins.begin());
+    // Pairs are ordered: where the first leaf changes, the lists of leaves begin.
+    forEachIndex(this->Exec, this->Pairs.size(),
+      [this](std::size_t i)
+      {
+        const auto leaf = static_cast<std::size_t>(this->Pairs[i].first);
+        const std::size_t last = i + 1 < this->Pairs.size()
+                                   ? static_cast<std::size_t>(this->Pairs[i + 1].first)
+                                   : this->Leaves.size();
+        std::fill(this->PairBegins.begin() + static_cast<std::ptrdiff_t>(leaf) + 1,
+          this->PairBegins.begin() + static_cast<std::ptrdiff_t>(last) + 1, i + 1);
+      });
   }
 
   std::size_t vertexOn(const LeafPair& pair) const
@@ -317,7 +321,7 @@ private:
   /// Orders the triangles, and drops unused vertices.
   MarchedTriangles<TSample> withUsedVertices(const std::vector<SurfaceTriangle>& triangles) const
   {
-    const std::vector<std::size_t> used = verticesOf(triangles, this->Edges.size());
+    const std::vector<std::size_t> used = verticesOf(this->Exec, triangles, this->Edges.size());
     MarchedTriangles<TSample> result;
     result.edges = chosenOf(this->Exec, this->Edges, used);
     result.positions = chosenOf(this->Exec, this->Positions, used);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "Core/Base/Execution.h"
 #include "Core/Base/Vector.h"
 #include "Core/Triangles/TriangleGeometry.h"
 
@@ -19,9 +20,9 @@ using VertexPair = std::pair<std::size_t, std::size_t>;
 
 /// Edges shorter than 0.55 sides of an equilateral triangle, shortest first in units of that side.
 /// Its area is the mean of the areas of the triangles at both ends. O(n log n)
-/// @returns an edge of several triangles several times
-/// @throws std::bad_alloc
-std::vector<VertexPair> shortEdges(
-  const std::vector<Vector>& positions, const std::vector<SurfaceTriangle>& triangles);
+/// @returns each edge once
+/// @throws std::bad_alloc, Aborted
+std::vector<VertexPair> shortEdges(const Execution& execution, const std::vector<Vector>& positions,
+  const std::vector<SurfaceTriangle>& triangles);
 
 } // namespace isopoint

@@ -37,49 +37,50 @@ Vector scaledNormal(const Vector& a, const Vector& b, const Vector& c)
 }
 
 /// Reverts moves longer than twice the longest edge of the vertex's triangles.
-void takeBackFarMoves(const std::vector<Vector>& unmoved,
+void takeBackFarMoves(const Execution& execution, const std::vector<Vector>& unmoved,
   const std::vector<SurfaceTriangle>& triangles, std::vector<LocalFit>& fits)
 {
   constexpr double maxReach = 2.0; // in longest edges
   std::vector<double> longest(fits.size(), 0.0);
-  for (const SurfaceTriangle& triangle : triangles)
-  {
-    double length = 0.0;
-    for (std::size_t i = 0; i < 3; ++i)
+  forEachInOrder(execution, triangles.size(),
+    [&](std::size_t i)
     {
-      length = std::max(length, lengthOf(unmoved[triangle[(i + 1) % 3]] - unmoved[triangle[i]]));
-    }
-    for (const std::size_t vertex : triangle)
+      const auto& [a, b, c] = triangles[i];
+      const double length = std::max({ 0.0, lengthOf(unmoved[b] - unmoved[a]),
+        lengthOf(unmoved[c] - unmoved[b]), lengthOf(unmoved[a] - unmoved[c]) });
+      for (const std::size_t vertex : { a, b, c })
+      {
+        longest[vertex] = std::max(longest[vertex], length);
+      }
+    });
+  forEachIndex(execution, fits.size(),
+    [&](std::size_t vertex)
     {
-      longest[vertex] = std::max(longest[vertex], length);
-    }
-  }
-  for (std::size_t vertex = 0; vertex < fits.size(); ++vertex)
-  {
-    LocalFit& fit = fits[vertex];
-    if (fit.order && fit.order != FitOrder::Crease &&
-        lengthOf(fit.position - unmoved[vertex]) > maxReach * longest[vertex])
-    {
-      fit.order.reset();
-      fit.position = unmoved[vertex];
-    }
-  }
+      LocalFit& fit = fits[vertex];
+      if (fit.order && fit.order != FitOrder::Crease &&
+          lengthOf(fit.position - unmoved[vertex]) > maxReach * longest[vertex])
+      {
+        fit.order.reset();
+        fit.position = unmoved[vertex];
+      }
+    });
 }
 
 } // namespace
 
-std::vector<std::size_t> verticesOf(
+std::vector<std::size_t> verticesOf(const Execution& execution,
   const std::vector<SurfaceTriangle>& triangles, std::size_t vertexCount)
 {
   std::vector<bool> isUsed(vertexCount, false);
-  for (const SurfaceTriangle& triangle : triangles)
-  {
-    for (const std::size_t vertex : triangle)
+  forEachInOrder(execution, triangles.size(),
+    [&](std::size_t i)
     {
-      isUsed[vertex] = true;
-    }
-  }
-  return markedOf(isUsed);
+      for (const std::size_t vertex : triangles[i])
+      {
+        isUsed[vertex] = true;
+      }
+    });
+  return markedOf(execution, isUsed);
 }
 
 std::vector<SurfaceTriangle> ordered(
@@ -114,7 +115,7 @@ std::vector<SurfaceTriangle> renumbered(const Execution& execution,
 void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>& unmoved,
   const std::vector<SurfaceTriangle>& triangles, std::vector<LocalFit>& fits)
 {
-  takeBackFarMoves(unmoved, triangles, fits);
+  takeBackFarMoves(execution, unmoved, triangles, fits);
   const auto isMoved = [&fits](std::size_t vertex) { return fits[vertex].order.has_value(); };
   const auto fallingAt = [&fits](std::size_t vertex)
   { return -directionOf(fits[vertex].gradient); };
@@ -152,25 +153,26 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
       execution.progress);
     if (!trianglesAt && !turned.empty())
     {
-      trianglesAt.emplace(fits.size(), triangles.size(),
+      trianglesAt.emplace(execution, fits.size(), triangles.size(),
         [&triangles](std::size_t triangle) -> const SurfaceTriangle&
         { return triangles[triangle]; });
     }
     suspects.clear();
-    for (const std::size_t triangle : turned)
-    {
-      for (const std::size_t vertex : triangles[triangle])
+    forEachInOrder(execution, turned.size(),
+      [&](std::size_t i)
       {
-        if (isMoved(vertex))
+        for (const std::size_t vertex : triangles[turned[i]])
         {
-          const IndexSpan<std::size_t> around = trianglesAt->at(vertex);
-          suspects.insert(suspects.end(), around.begin(), around.end());
+          if (isMoved(vertex))
+          {
+            const IndexSpan<std::size_t> around = trianglesAt->at(vertex);
+            suspects.insert(suspects.end(), around.begin(), around.end());
+          }
+          fits[vertex].order.reset();
+          fits[vertex].position = unmoved[vertex];
         }
-        fits[vertex].order.reset();
-        fits[vertex].position = unmoved[vertex];
-      }
-    }
-    keepUnique(suspects);
+      });
+    suspects = sortedUnique(execution, suspects, triangles.size());
   }
 }
 

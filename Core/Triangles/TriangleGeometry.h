@@ -17,7 +17,8 @@ using SurfaceTriangle = std::array<std::size_t, 3>;
 
 /// The distinct vertices of triangles, ascending.
 /// @param vertexCount exceeds every vertex
-std::vector<std::size_t> verticesOf(
+/// @throws std::bad_alloc, Aborted
+std::vector<std::size_t> verticesOf(const Execution& execution,
   const std::vector<SurfaceTriangle>& triangles, std::size_t vertexCount);
 
 /// The distinct triangles, each starting at its lowest vertex, ordered.

@@ -77,37 +77,35 @@ void VertexContraction::findBorder()
 {
   // At inner vertices, each neighbor is once a successor and once a predecessor.
   std::vector<std::uint64_t> balances(this->IsAtBorder.size(), 0);
-  for (const SurfaceTriangle& triangle : this->Triangles)
-  {
-    const auto& [a, b, c] = triangle;
-    balances[a] += mixBits(b + 1) - mixBits(c + 1);
-    balances[b] += mixBits(c + 1) - mixBits(a + 1);
-    balances[c] += mixBits(a + 1) - mixBits(b + 1);
-  }
-  std::transform(balances.begin(), balances.end(), this->IsAtBorder.begin(),
-    [](std::uint64_t balance) { return balance != 0 ? 1 : 0; });
+  forEachInOrder(this->Exec, this->Triangles.size(),
+    [&](std::size_t triangle)
+    {
+      const auto& [a, b, c] = this->Triangles[triangle];
+      balances[a] += mixBits(b + 1) - mixBits(c + 1);
+      balances[b] += mixBits(c + 1) - mixBits(a + 1);
+      balances[c] += mixBits(a + 1) - mixBits(b + 1);
+    });
+  forEachIndex(this->Exec, balances.size(),
+    [&](std::size_t vertex) { this->IsAtBorder[vertex] = balances[vertex] != 0 ? 1 : 0; });
 }
 
 void VertexContraction::contract()
 {
-  for (std::size_t part = 0; part < this->Parts.size(); ++part)
-  {
-    this->IsMerged[part] = this->Parts.isSimple(part) ? 1 : 0;
-  }
   forEachIndex(this->Exec, this->Parts.size(),
     [this](std::size_t part)
     {
-      if (this->IsMerged[part])
+      if (this->Parts.isSimple(part))
       {
+        this->IsMerged[part] = 1;
         this->merge(part);
       }
     });
-  std::vector<std::size_t> suspects = markedOf(this->IsMerged);
+  std::vector<std::size_t> suspects = markedOf(this->Exec, this->IsMerged);
   while (!suspects.empty())
   {
     constexpr std::size_t grain = 1024;
     std::vector<std::size_t> failed = collected<std::size_t>(this->Exec,
-      { suspects.size(), 16 * grain, grain },
+      { suspects.size(), 4 * grain, grain },
       [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
       {
         Surroundings around;
@@ -115,15 +113,15 @@ void VertexContraction::contract()
           suspects.begin() + static_cast<std::ptrdiff_t>(end), std::back_inserter(found),
           [&](std::size_t part) { return this->IsMerged[part] && !this->isSurface(part, around); });
       });
-    keepUnique(failed);
     const std::vector<std::size_t> separated = this->lowestAmongNeighbors(failed);
     suspects = std::move(failed);
-    for (const std::size_t part : separated)
-    {
-      this->separate(part);
-      this->forPartsAround(part, [&](std::size_t other) { suspects.push_back(other); });
-    }
-    keepUnique(suspects);
+    forEachInOrder(this->Exec, separated.size(),
+      [&](std::size_t i)
+      {
+        this->separate(separated[i]);
+        this->forPartsAround(separated[i], [&](std::size_t other) { suspects.push_back(other); });
+      });
+    suspects = sortedUnique(this->Exec, suspects, this->Parts.size());
   }
 }
 
@@ -150,19 +148,20 @@ std::vector<std::size_t> VertexContraction::lowestAmongNeighbors(
   const std::vector<std::size_t>& failed) const
 {
   const auto keyOf = [](std::size_t part) { return std::pair(mixBits(part + 1), part); };
-  std::vector<std::size_t> first;
-  std::copy_if(failed.begin(), failed.end(), std::back_inserter(first),
-    [&](std::size_t part)
+  std::vector<std::size_t> first = itemsThat(this->Exec, failed.size(),
+    [&](std::size_t i)
     {
       bool isFirst = true;
-      this->forPartsAround(part,
+      this->forPartsAround(failed[i],
         [&](std::size_t other)
         {
           isFirst = isFirst && (!std::binary_search(failed.begin(), failed.end(), other) ||
-                                 keyOf(part) < keyOf(other));
+                                 keyOf(failed[i]) < keyOf(other));
         });
       return isFirst;
     });
+  std::transform(
+    first.begin(), first.end(), first.begin(), [&](std::size_t i) { return failed[i]; });
   return first;
 }
 

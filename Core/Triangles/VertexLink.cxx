@@ -59,30 +59,27 @@ bool VertexLink::hasVertex(std::size_t vertex) const
 std::vector<std::size_t> branchedVertices(
   const Execution& execution, const std::vector<SurfaceTriangle>& triangles, std::size_t count)
 {
-  const ItemLists around(
-    count, triangles.size(), [&](std::size_t triangle) { return triangles[triangle]; });
+  const ItemLists around(execution, count, triangles.size(),
+    [&](std::size_t triangle) -> const SurfaceTriangle& { return triangles[triangle]; });
   constexpr std::size_t grain = 4096;
-  std::vector<std::size_t> branched =
-    collected<std::size_t>(execution, { count, 16 * grain, grain },
-      [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
+  return collected<std::size_t>(execution, { count, 4 * grain, grain },
+    [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
+    {
+      VertexLink link;
+      for (std::size_t vertex = begin; vertex < end; ++vertex)
       {
-        VertexLink link;
-        for (std::size_t vertex = begin; vertex < end; ++vertex)
+        link.clear();
+        for (const std::size_t triangle : around.at(vertex))
         {
-          link.clear();
-          for (const std::size_t triangle : around.at(vertex))
-          {
-            const auto& [a, b, c] = triangles[triangle];
-            link.add(a == vertex ? b : b == vertex ? c : a, a == vertex ? c : b == vertex ? a : b);
-          }
-          if (!link.isCycleOrPath())
-          {
-            found.push_back(vertex);
-          }
+          const auto& [a, b, c] = triangles[triangle];
+          link.add(a == vertex ? b : b == vertex ? c : a, a == vertex ? c : b == vertex ? a : b);
         }
-      });
-  std::sort(branched.begin(), branched.end());
-  return branched;
+        if (!link.isCycleOrPath())
+        {
+          found.push_back(vertex);
+        }
+      }
+    });
 }
 
 } // namespace isopoint

@@ -60,27 +60,22 @@ private:
   /// Merges the vertices of each group if possible, and renumbers.
   void contract(std::vector<std::size_t> groups, std::size_t groupCount)
   {
-    for (std::size_t vertex = 0; vertex < this->count(); ++vertex)
-    {
-      if (this->AreKept[vertex])
+    forEachInOrder(this->Exec, this->count(),
+      [&](std::size_t vertex)
       {
-        groups[vertex] = groupCount++; // alone
-      }
-    }
+        if (this->AreKept[vertex])
+        {
+          groups[vertex] = groupCount++; // alone
+        }
+      });
     VertexContraction contraction(
       this->Exec, this->Vertices, this->Result.triangles, groups, groupCount);
     contraction.contract();
-    std::vector<std::size_t> roots;
-    for (std::size_t vertex = 0; vertex < this->count(); ++vertex)
-    {
-      if (contraction.rootOf(vertex) == vertex)
-      {
-        roots.push_back(vertex);
-      }
-    }
+    const std::vector<std::size_t> roots = itemsThat(this->Exec, this->count(),
+      [&](std::size_t vertex) { return contraction.rootOf(vertex) == vertex; });
     std::vector<char> areKept(roots.size());
-    std::transform(roots.begin(), roots.end(), areKept.begin(),
-      [this](std::size_t root) { return this->AreKept[root]; });
+    forEachIndex(
+      this->Exec, roots.size(), [&](std::size_t i) { areKept[i] = this->AreKept[roots[i]]; });
     this->AreKept = std::move(areKept);
     std::vector<SurfaceTriangle> triangles = this->trianglesOf(contraction, roots);
     this->keepVertices(contraction, roots);
@@ -90,17 +85,23 @@ private:
   std::vector<SurfaceTriangle> trianglesOf(
     const VertexContraction& contraction, const std::vector<std::size_t>& roots) const
   {
-    std::vector<SurfaceTriangle> triangles;
-    for (const SurfaceTriangle& triangle : this->Result.triangles)
-    {
-      const SurfaceTriangle moved{ contraction.rootOf(triangle[0]), contraction.rootOf(triangle[1]),
-        contraction.rootOf(triangle[2]) };
-      if (moved[0] != moved[1] && moved[1] != moved[2] && moved[2] != moved[0])
-      {
-        triangles.push_back(moved);
-      }
-    }
-    return renumbered(this->Exec, triangles, roots, this->count());
+    constexpr std::size_t grain = 4096;
+    return renumbered(this->Exec,
+      collected<SurfaceTriangle>(this->Exec, { this->Result.triangles.size(), 4 * grain, grain },
+        [&](std::size_t begin, std::size_t end, std::vector<SurfaceTriangle>& found)
+        {
+          for (std::size_t i = begin; i < end; ++i)
+          {
+            const auto& [a, b, c] = this->Result.triangles[i];
+            const SurfaceTriangle moved{ contraction.rootOf(a), contraction.rootOf(b),
+              contraction.rootOf(c) };
+            if (moved[0] != moved[1] && moved[1] != moved[2] && moved[2] != moved[0])
+            {
+              found.push_back(moved);
+            }
+          }
+        }),
+      roots, this->count());
   }
 
   void keepVertices(const VertexContraction& contraction, const std::vector<std::size_t>& roots)
@@ -108,19 +109,20 @@ private:
     WeightedVertices vertices;
     std::vector<std::size_t> members;
     std::vector<std::size_t> begins(1, 0);
-    for (const std::size_t root : roots)
-    {
-      for (const std::size_t former : contraction.membersOf(root))
+    forEachInOrder(this->Exec, roots.size(),
+      [&](std::size_t i)
       {
-        const auto begin = this->Result.members.begin();
-        members.insert(members.end(),
-          begin + static_cast<std::ptrdiff_t>(this->Result.memberBegins[former]),
-          begin + static_cast<std::ptrdiff_t>(this->Result.memberBegins[former + 1]));
-      }
-      vertices.positions.push_back(contraction.positionOf(root));
-      vertices.weights.push_back(static_cast<double>(members.size() - begins.back()));
-      begins.push_back(members.size());
-    }
+        for (const std::size_t former : contraction.membersOf(roots[i]))
+        {
+          const auto begin = this->Result.members.begin();
+          members.insert(members.end(),
+            begin + static_cast<std::ptrdiff_t>(this->Result.memberBegins[former]),
+            begin + static_cast<std::ptrdiff_t>(this->Result.memberBegins[former + 1]));
+        }
+        vertices.positions.push_back(contraction.positionOf(roots[i]));
+        vertices.weights.push_back(static_cast<double>(members.size() - begins.back()));
+        begins.push_back(members.size());
+      });
     this->Vertices = std::move(vertices);
     this->Result.members = std::move(members);
     this->Result.memberBegins = std::move(begins);
@@ -132,14 +134,18 @@ private:
     std::vector<std::size_t> groups(this->count());
     std::iota(groups.begin(), groups.end(), std::size_t{ 0 });
     std::vector<bool> isTaken(this->count(), false);
-    for (const auto& [a, b] : shortEdges(this->Vertices.positions, this->Result.triangles))
-    {
-      if (!isTaken[a] && !isTaken[b])
+    const std::vector<VertexPair> edges =
+      shortEdges(this->Exec, this->Vertices.positions, this->Result.triangles);
+    forEachInOrder(this->Exec, edges.size(),
+      [&](std::size_t i)
       {
-        isTaken[a] = isTaken[b] = true;
-        groups[b] = a;
-      }
-    }
+        const auto& [a, b] = edges[i];
+        if (!isTaken[a] && !isTaken[b])
+        {
+          isTaken[a] = isTaken[b] = true;
+          groups[b] = a;
+        }
+      });
     return groups;
   }
 

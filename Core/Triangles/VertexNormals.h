@@ -15,7 +15,7 @@ namespace isopoint
 /// area-weighted mean of the triangle normals. The mean also replaces a missing normal, and one of
 /// a failed fit, which is more than 60 degrees off both this mean and the mean of the neighbors'
 /// means. Fits with creases do not fail.
-/// @throws std::bad_alloc
+/// @throws std::bad_alloc, Aborted
 std::vector<Vector> vertexNormals(const Execution& execution, const SurfacePoints& points,
   const std::vector<SurfaceTriangle>& triangles, bool areOfField);
 

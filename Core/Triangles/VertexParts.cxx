@@ -162,18 +162,17 @@ VertexParts::VertexParts(const Execution& execution, const std::vector<SurfaceTr
   const std::vector<std::size_t>& groups, std::size_t groupCount)
   : PartOf(groups.size(), none)
 {
-  const ItemLists trianglesOfGroups(groupCount, triangles.size(),
+  const ItemLists trianglesOfGroups(execution, groupCount, triangles.size(),
     [&](std::size_t triangle) { return LabelsOfTriangle(groups, triangles[triangle]); });
-  ItemLists members(
-    groupCount, groups.size(), [&](std::size_t vertex) { return std::array{ groups[vertex] }; });
+  ItemLists members(execution, groupCount, groups.size(),
+    [&](std::size_t vertex) { return std::array{ groups[vertex] }; });
   std::vector<std::size_t> begins(groupCount + 1, groups.size());
-  for (std::size_t group = 0; group < groupCount; ++group)
-  {
-    begins[group] = static_cast<std::size_t>(members.at(group).first - members.at(0).first);
-  }
+  forEachIndex(execution, groupCount,
+    [&](std::size_t group)
+    { begins[group] = static_cast<std::size_t>(members.at(group).first - members.at(0).first); });
   this->Vertices = std::move(members).all();
   constexpr std::size_t grain = 1024;
-  this->Parts = collected<Part>(execution, { groupCount, 16 * grain, grain },
+  this->Parts = collected<Part>(execution, { groupCount, 8 * grain, grain },
     [&](std::size_t begin, std::size_t end, std::vector<Part>& found)
     {
       Labeling labeling(triangles, groups);
@@ -187,8 +186,6 @@ VertexParts::VertexParts(const Execution& execution, const std::vector<SurfaceTr
         }
       }
     });
-  std::sort(this->Parts.begin(), this->Parts.end(),
-    [](const Part& a, const Part& b) { return a.begin < b.begin; });
   forEachIndex(execution, this->Parts.size(),
     [this](std::size_t part)
     {
@@ -197,7 +194,7 @@ VertexParts::VertexParts(const Execution& execution, const std::vector<SurfaceTr
         this->PartOf[vertex] = part;
       }
     });
-  this->Triangles.emplace(this->Parts.size(), triangles.size(),
+  this->Triangles.emplace(execution, this->Parts.size(), triangles.size(),
     [&](std::size_t triangle) { return LabelsOfTriangle(this->PartOf, triangles[triangle]); });
 }
 

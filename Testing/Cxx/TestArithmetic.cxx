@@ -29,6 +29,18 @@ TEST(Arithmetic, LanesAddUpBeforeTheirSums)
   EXPECT_EQ(isopoint::sumOfSquares(numbers), (ofLane(0) + ofLane(1)) + (ofLane(2) + ofLane(3)));
 }
 
+// The last part is padded with zeros.
+TEST(Arithmetic, HashesOfBytesDependOnTheirNumber)
+{
+  const std::vector<unsigned char> bytes(70000, 0);
+  std::set<std::uint64_t> hashes;
+  for (const std::size_t count : { 0, 1, 2, 8, 9, 65535, 65536, 65537, 70000 })
+  {
+    hashes.insert(isopoint::hashOf({}, bytes.data(), count));
+  }
+  EXPECT_EQ(hashes.size(), 9u);
+}
+
 TEST(Arithmetic, LengthsHaveAnyScale)
 {
   using isopoint::lengthOf;

@@ -11,6 +11,7 @@ namespace
 
 using namespace isopoint;
 
+const Execution execution;
 const Vector up{ 0.0, 0.0, 1.0 };
 
 /// A fan around vertex 0, in the plane, whose rim is 1 to 6.
@@ -37,7 +38,7 @@ struct Fan
     this->facets.push_back({ { 2, 1, 7 }, up });
   }
 
-  FacetMesh mesh() const { return { this->positions, this->areInner, this->facets }; }
+  FacetMesh mesh() const { return { execution, this->positions, this->areInner, this->facets }; }
 };
 
 // The center lies beyond the edge from 1 to 2.
@@ -100,7 +101,7 @@ TEST(FacetMesh, ATetrahedronStaysOne)
   const std::vector<Vector> positions{ { 0.0, 0.0, 0.0 }, { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 },
     { 0.0, 0.0, 1.0 } };
   const std::vector<bool> isInner(positions.size(), true);
-  FacetMesh mesh(positions, isInner,
+  FacetMesh mesh(execution, positions, isInner,
     { { { 0, 2, 1 }, up }, { { 0, 1, 3 }, up }, { { 1, 2, 3 }, up }, { { 0, 3, 2 }, up } });
   mesh.untangle();
   EXPECT_FALSE(mesh.collapse(0, 1, [](const Facet&) { return true; }));
@@ -111,7 +112,7 @@ TEST(FacetMesh, FacetsBackToBackAreLeftAlone)
 {
   const std::vector<Vector> positions{ { 0.0, 0.0, 0.0 }, { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 } };
   const std::vector<bool> isInner(positions.size(), true);
-  FacetMesh mesh(positions, isInner, { { { 0, 1, 2 }, up }, { { 1, 0, 2 }, up } });
+  FacetMesh mesh(execution, positions, isInner, { { { 0, 1, 2 }, up }, { { 1, 0, 2 }, up } });
   EXPECT_EQ(mesh.invertedFacets().size(), 1u);
   mesh.untangle();
   for (const Facet& facet : mesh.facets())

@@ -119,7 +119,7 @@ TEST(IsopointNeighbors, EndInTouchingLeaves)
 TEST(IsopointNeighbors, AreInTheOrderOfLeaves)
 {
   const std::vector<isopoint::EdgeLeaves> leaves{ { 4, 2 }, { 0, 4 }, { 3, 1 }, { 0, 1 } };
-  EXPECT_EQ(isopoint::inOrderOfLeaves(leaves, 5), (std::vector<std::size_t>{ 1, 3, 2, 0 }));
+  EXPECT_EQ(isopoint::inOrderOfLeaves({}, leaves, 5), (std::vector<std::size_t>{ 1, 3, 2, 0 }));
 }
 
 // Cells on three lines, each of which touches hundreds of those on the others.

@@ -5,6 +5,8 @@
 
 #include "Core/OutputArrays.h"
 #include "Core/Triangles/EdgeFlipping.h"
+#include "Core/Triangles/ShortEdges.h"
+#include "Core/Triangles/VertexLink.h"
 #include "Core/Triangles/VertexMerging.h"
 
 #include <gtest/gtest.h>
@@ -198,6 +200,102 @@ TEST(Regularization, HugeCoordinatesHaveMeans)
   {
     EXPECT_TRUE(isFinite(position));
   }
+}
+
+/// With and without gaps, which the spacing of the samples decides.
+TEST(Regularization, TrianglesAreTheSameAtAllScales)
+{
+  const Cloud uniform = clouds::uniform(1500, 6);
+  const Cloud hollow = clouds::filtered(uniform,
+    [](const Vector& p) {
+      return lengthOf(p - Vector{ 0.3, 0.5, 0.5 }) > 0.25;
+    });
+  const auto found = [](const Cloud& cloud, const ExtractionRequest& request, double scale)
+  { return clouds::extracted(clouds::scaled(cloud, scale, scale, scale), request); };
+  for (const Cloud& cloud : { uniform, hollow })
+  {
+    for (const bool dropsGaps : { false, true })
+    {
+      const ExtractionRequest request =
+        clouds::withTriangles(clouds::requestOf(0.3, FitOrder::Cubic, dropsGaps), true);
+      const ExtractedIsosurface expected = found(cloud, request, 1.0);
+      ASSERT_GT(expected.triangles.size(), 300u);
+      // Near 1e77, 1e100, 1e160, 1e300 and their inverses.
+      for (const int exponent : { 256, 332, 532, 1000, -256, -332, -532, -1000 })
+      {
+        SCOPED_TRACE(exponent);
+        EXPECT_EQ(found(cloud, request, std::ldexp(1.0, exponent)).triangles, expected.triangles);
+      }
+    }
+  }
+}
+
+/// One far vertex does not make the edges of all others vanish.
+TEST(Regularization, FarVerticesChangeNothingElse)
+{
+  std::vector<Vector> positions{ { -3, 0, 0 }, { 0, -1, 0 }, { 3, 0, 0 }, { 0, 1, 0 } };
+  Triangles triangles{ { 0, 1, 2 }, { 0, 2, 3 } };
+  for (const double far : { 1e300, 1.1e300 })
+  {
+    const std::size_t first = positions.size();
+    positions.insert(positions.end(), { { 0, 0, far }, { far, 0, far }, { 0, far, far } });
+    triangles.push_back({ first, first + 1, first + 2 });
+  }
+  triangles.insert(triangles.begin() + 2, { { 10, 11, 12 } });
+  positions.insert(positions.end(), { { 9, 0, 0 }, { 9, 1, 0 }, { 8, 1, 0 } });
+  const Triangles found = flipped(positions, triangles);
+  EXPECT_NE(std::find(found.begin(), found.end(), SurfaceTriangle{ 0, 1, 3 }), found.end());
+}
+
+/// Questions are as frequent as triangles are processed, in every step.
+TEST(Regularization, EveryStepAsksForAborts)
+{
+  constexpr std::size_t side = 182;
+  clouds::Random random(9);
+  std::vector<Vector> positions;
+  Triangles triangles;
+  for (std::size_t i = 0; i < side * side; ++i)
+  {
+    const auto row = static_cast<double>(i / side);
+    const auto column = static_cast<double>(i % side);
+    positions.push_back({ row + 0.8 * random(), column + 0.8 * random(), 0.0 });
+    if (i / side + 1 < side && i % side + 1 < side)
+    {
+      triangles.push_back({ i, i + side, i + side + 1 });
+      triangles.push_back({ i, i + side + 1, i + 1 });
+    }
+  }
+  constexpr std::size_t most = 16384; // triangles between two questions
+  std::size_t asked = 0;
+  Execution execution;
+  execution.aborted = [&asked]()
+  {
+    ++asked;
+    return false;
+  };
+  const auto questionsOf = [&](const auto& step)
+  {
+    asked = 0;
+    step();
+    return asked;
+  };
+  const std::vector<char> areKept(positions.size(), 0);
+  const std::size_t onePass = triangles.size() / most;
+  EXPECT_GE(
+    questionsOf([&]() { branchedVertices(execution, triangles, positions.size()); }), 2 * onePass);
+  EXPECT_GE(questionsOf([&]() { shortEdges(execution, positions, triangles); }), 2 * onePass);
+  EXPECT_GE(questionsOf([&]() { verticesOf(execution, triangles, positions.size()); }), onePass);
+  EXPECT_GE(questionsOf([&]() { ordered(execution, triangles, positions.size()); }), onePass);
+  // Twins: two passes over sides, at least one round; normals; order.
+  Triangles changed = triangles;
+  EXPECT_GE(
+    questionsOf([&]() { flipEdges(execution, positions, areKept, changed); }), 11 * onePass);
+  // The groups of the first merge, then three rounds of flips and merges.
+  std::vector<std::size_t> groups(positions.size());
+  std::transform(positions.begin(), positions.end(), groups.begin(),
+    [](const Vector& p) { return static_cast<std::size_t>(p[0] / 3.0); });
+  EXPECT_GE(questionsOf([&]() { mergeVertices(execution, positions, groups, side, triangles); }),
+    40 * onePass);
 }
 
 TEST(Regularization, DoesNotDependOnThreadsOrTheOrderOfSamples)

@@ -12,6 +12,7 @@
 #include <limits>
 #include <memory>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
@@ -588,6 +589,14 @@ TEST(Library, ACanceledCallCanBeRepeated)
   const isopoint_array array = arrayOf(ofPoints, ISOPOINT_DOUBLE, 1);
   std::vector<double> means(numbersOf<std::int64_t>(surface, ISOPOINT_SPLAT_VERTEX_POINTS).size());
   EXPECT_EQ(isopoint_average_at_splat_vertices(surface.get(), &array, means.data()), ISOPOINT_OK);
+  const isopoint_array values = cloud.valueArray();
+  std::vector<double> samples(ofPoints.size());
+  EXPECT_EQ(isopoint_interpolate(surface.get(), &values, samples.data()), ISOPOINT_OK);
+  cancelAfter(0);
+  EXPECT_EQ(
+    isopoint_average_at_splat_vertices(surface.get(), &array, means.data()), ISOPOINT_CANCELED);
+  cancelAfter(0);
+  EXPECT_EQ(isopoint_interpolate(surface.get(), &values, samples.data()), ISOPOINT_CANCELED);
   cancelAfter(0);
   EXPECT_EQ(cloud.load(extractor.get()), ISOPOINT_CANCELED);
   EXPECT_EQ(isopoint_get_sample_count(extractor.get()), 0);
@@ -750,6 +759,36 @@ TEST(Library, ErrorsAreThoseOfTheThread)
   std::string elsewhere = "unset";
   std::thread([&]() { elsewhere = isopoint_get_error(); }).join();
   EXPECT_EQ(elsewhere, "");
+}
+
+/// Arrays that no memory can hold are no fault of the tree.
+TEST(Library, ImpossibleSizesAreALackOfMemory)
+{
+  const double number = 0.0;
+  const isopoint_array endless{ &number, ISOPOINT_DOUBLE, 3, std::int64_t{ 1 } << 60, 0, 0 };
+  isopoint_surface* created = nullptr;
+  EXPECT_EQ(isopoint_create_surface(&endless, &endless, &endless, &endless, &created),
+    ISOPOINT_OUT_OF_MEMORY);
+  expectContains(isopoint_get_error(), "Out of memory");
+}
+
+/// A callback that throws stands for any bug.
+TEST(Library, ABugLeavesNoSamplesAndItsWholeDescription)
+{
+  const Extractor extractor(Cloud{});
+  ASSERT_EQ(
+    isopoint_set_callbacks(
+      extractor.get(), [](void*, double) { throw std::logic_error(std::string(5000, '?')); },
+      nullptr, nullptr),
+    ISOPOINT_OK);
+  const double isovalue = 0.7;
+  isopoint_surface* surface = nullptr;
+  const auto extract = [&]()
+  { return isopoint_extract(extractor.get(), &isovalue, 1, nullptr, &surface); };
+  EXPECT_EQ(extract(), ISOPOINT_INTERNAL_ERROR);
+  expectContains(isopoint_get_error(), std::string(5000, '?') + "). Report this as a bug");
+  EXPECT_EQ(isopoint_get_sample_count(extractor.get()), 0);
+  expectInvalid(extract(), "isopoint_set_samples()");
 }
 
 TEST(Library, SurfacesOutliveTheirExtractor)
