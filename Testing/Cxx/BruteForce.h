@@ -100,7 +100,7 @@ inline clouds::Cloud inScale(const clouds::Cloud& cloud)
     exponents.push_back(largest > 0.0 ? std::ilogb(largest) : 0);
     greatest = std::max(greatest, largest);
   }
-  if (greatest == 0.0 || (greatest >= 0x1p-200 && greatest < 0x1p201))
+  if (greatest == 0.0 || (greatest >= 0x1p-128 && greatest < 0x1p129))
   {
     return cloud;
   }
