@@ -42,19 +42,19 @@ public:
     const double scale = 1.0 / unit;
     this->All.clear();
     this->Nearby.clear();
-    const auto add = [&](std::size_t other)
-    {
-      const Vector offset = scale * (this->Points.positions[other] - position);
-      this->All.push_back({ dot(offset, offset), other });
-    };
-    for (const std::size_t other : this->Finder.find(point, rings))
+    const auto addIfVisible = [&](std::size_t other)
     {
       if (!this->States || (*this->States)[other] != SplatState::Hidden)
       {
-        add(other);
+        const Vector offset = scale * (this->Points.positions[other] - position);
+        this->All.push_back({ dot(offset, offset), other });
       }
+    };
+    for (const std::size_t other : this->Finder.find(point, rings))
+    {
+      addIfVisible(other);
     }
-    std::for_each(missed.begin(), missed.end(), add);
+    std::for_each(missed.begin(), missed.end(), addIfVisible);
   }
 
   /// Lists the points at other positions within a squared distance, in squared units.

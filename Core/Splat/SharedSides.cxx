@@ -56,14 +56,6 @@ std::optional<VoronoiCell::Corner> meetingOf(const VoronoiCell& cell, std::size_
   return std::nullopt;
 }
 
-/// Whether reduceTo() may have dropped a side between the sides towards two points: the cell has
-/// the maximum number of corners, and these sides are adjacent.
-bool mayHaveDropped(const VoronoiCell& cell, std::size_t before, std::size_t after)
-{
-  const std::size_t side = sideTowards(cell, before);
-  return cell.count == maxCorners && side < cell.count && cell.after(side).beyond == after;
-}
-
 void replace(std::size_t side, const VoronoiCell::Corner& corner, VoronoiCell& cell)
 {
   cell.corners[(side + 1) % cell.count] = corner;
@@ -114,25 +106,6 @@ VoronoiCell withoutCrossedSides(const RawArray<VoronoiCell>& cells, std::size_t 
     }
   }
   return cell;
-}
-
-/// The corner that takes the place of a side; nothing if it stays.
-/// @param other the cell of the point beyond the side
-std::optional<VoronoiCell::Corner> replacementOf(
-  const VoronoiCell& cell, std::size_t side, const VoronoiCell& other)
-{
-  if (const std::optional<VoronoiCell::Corner> meeting = meetingOf(cell, side))
-  {
-    return meeting;
-  }
-  const std::size_t before = cell.before(side).beyond;
-  const std::size_t after = cell.after(side).beyond;
-  if (VoronoiCell::isPoint(before) && VoronoiCell::isPoint(after) &&
-      mayHaveDropped(other, after, before))
-  {
-    return middleOf(cell, side);
-  }
-  return std::nullopt;
 }
 
 } // namespace
@@ -193,8 +166,7 @@ VoronoiCell withSharedSides(const RawArray<VoronoiCell>& cells, std::size_t poin
       const double length = squaredLength(cell, side);
       if (length < least && !isShared(side))
       {
-        if (const std::optional<VoronoiCell::Corner> corner =
-              replacementOf(cell, side, cells[cell.corners[side].beyond]))
+        if (const std::optional<VoronoiCell::Corner> corner = meetingOf(cell, side))
         {
           least = length;
           shortest = side;

@@ -123,8 +123,8 @@ private:
     missing = sortedUnique(this->Exec, missing, this->Splats.size());
     this->Chosen.keepOwn(missing);
     this->cut(partOf(this->Exec, cutEnd, cutEnd), missing);
-    const std::vector<std::size_t> turned = this->turnPlanes();
-    this->cut(partOf(this->Exec, cutEnd, cellsEnd), turned);
+    const std::vector<std::size_t> changed = this->correctPlanes();
+    this->cut(partOf(this->Exec, cutEnd, cellsEnd), changed);
   }
 
   /// Cuts the cells of some points, and shares all cells.
@@ -154,35 +154,66 @@ private:
     return others;
   }
 
-  /// Turns the planes of cells whose normals disagree with the surrounding points.
+  /// Hides stray points, and turns the planes of cells whose normals disagree with the surrounding
+  /// points.
   /// @returns this rank's points whose cells must be cut again: those and their neighbors
-  std::vector<std::size_t> turnPlanes()
+  std::vector<std::size_t> correctPlanes()
   {
     const std::vector<std::size_t>& own = this->Chosen.own();
-    std::vector<char> areTurned(this->Splats.size(), 0);
+    std::vector<char> areChanged(this->Splats.size(), 0);
     forEachIndex(this->Exec, own.size(),
       [&](std::size_t i)
       {
         const std::size_t point = own[i];
-        if (const std::optional<Vector> plane =
-              turnedNormal(this->Points, point, this->CellNormals[point], this->Cells[point]))
+        if (this->isStray(point))
+        {
+          this->States[point] = SplatState::Hidden;
+          areChanged[point] = 1;
+        }
+        else if (const std::optional<Vector> plane = turnedNormal(
+                   this->Points, point, this->Splats[point].normal, this->Cells[point]))
         {
           this->CellNormals[point] = *plane;
-          areTurned[point] = 1;
+          areChanged[point] = 1;
         }
       });
+    this->Chosen.share(this->States);
     this->Chosen.share(this->CellNormals);
-    this->Chosen.share(areTurned);
+    this->Chosen.share(areChanged);
     const std::vector<std::size_t> changed = itemsThat(this->Exec, own.size(),
       [&](std::size_t i)
       {
         const VoronoiCell& cell = this->Cells[own[i]];
-        return areTurned[own[i]] ||
+        return areChanged[own[i]] ||
                std::any_of(cell.begin(), cell.end(),
                  [&](const VoronoiCell::Corner& corner)
-                 { return VoronoiCell::isPoint(corner.beyond) && areTurned[corner.beyond]; });
+                 { return VoronoiCell::isPoint(corner.beyond) && areChanged[corner.beyond]; });
       });
     return chosenOf(this->Exec, own, changed);
+  }
+
+  /// Whether a point is not on the surface around it. Either its edge leads across a void, and no
+  /// other cell continues its own; or its normal opposes those all around it, with which its edge
+  /// agrees.
+  bool isStray(std::size_t point) const
+  {
+    constexpr double longEdge = 4.0; // in units; as the strong gap criterion
+    const VoronoiCell& cell = this->Cells[point];
+    const Vector& edge = this->Points.decreasingEdges[point];
+    const auto isAlone = [&](const VoronoiCell::Corner& corner)
+    {
+      return !VoronoiCell::isPoint(corner.beyond) ||
+             sideTowards(this->Cells[corner.beyond], point) == this->Cells[corner.beyond].count;
+    };
+    const auto isOpposed = [&](const VoronoiCell::Corner& corner)
+    {
+      return VoronoiCell::isPoint(corner.beyond) &&
+             dot(this->Splats[corner.beyond].normal, this->Splats[point].normal) < 0.0 &&
+             dot(this->Splats[corner.beyond].normal, edge) > 0.0;
+    };
+    return cell.count > 0 && (std::all_of(cell.begin(), cell.end(), isOpposed) ||
+                               (lengthOf(edge) > longEdge * cell.unit &&
+                                 std::all_of(cell.begin(), cell.end(), isAlone)));
   }
 
   const Execution& Exec;

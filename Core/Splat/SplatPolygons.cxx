@@ -2,6 +2,8 @@
 #include "Core/Splat/SplatPolygons.h"
 
 #include "Core/Base/Vector.h"
+#include "Core/Splat/CellTips.h"
+#include "Core/Splat/LoweredCells.h"
 #include "Core/Splat/SharedSides.h"
 
 #include <algorithm>
@@ -14,24 +16,6 @@ namespace isopoint
 {
 namespace
 {
-
-/// A VoronoiCell whose corners are projected from the tangent plane onto the surface.
-struct LoweredCell
-{
-  struct Corner
-  {
-    Vector position;
-    Vector normal;      // of the surface, of length 1
-    double distance;    // from the point, in the tangent plane
-    std::size_t beyond; // see VoronoiCell
-    bool overlaps;
-  };
-
-  std::array<Corner, maxCorners> corners; // counterclockwise
-  std::size_t count;
-  double unit;
-  PlaneForm curvature; // see VoronoiCell
-};
 
 /// Projects the corners of a cell onto the point's paraboloid; see docs/algorithm.md, section 12.6.
 /// @param plane the normal of the cell's plane
@@ -60,30 +44,18 @@ LoweredCell loweredCell(
   return lowered;
 }
 
-struct CornerOf
-{
-  std::size_t point;
-  std::size_t corner;
-
-  bool operator==(const CornerOf& other) const
-  {
-    return this->point == other.point && this->corner == other.corner;
-  }
-};
-
 /// Corners of adjacent cells that meet, in the order of the points' numbers.
-struct Meeting
+class Meeting
 {
-  std::array<CornerOf, maxMeeting> corners{};
-  std::size_t count = 0;
-  bool isTooLarge = false;    // then the corners stay apart
-  bool isOverlapping = false; // then too; see VoronoiCell::Corner::overlaps
-
+public:
   void add(const CornerOf& corner, const SurfacePoints& points)
   {
-    this->isTooLarge = this->count == this->corners.size();
-    if (this->isTooLarge)
+    const bool isOfNewCell = std::none_of(this->begin(), this->end(),
+      [&](const CornerOf& other) { return other.point == corner.point; });
+    this->CellCount += isOfNewCell ? 1 : 0;
+    if (this->isTooLarge() || this->Count == this->Corners.size())
     {
+      this->CellCount = maxMeeting + 1;
       return;
     }
     const auto comesBefore = [&](const CornerOf& a, const CornerOf& b)
@@ -91,23 +63,31 @@ struct Meeting
       return std::pair(points.numberOf(a.point), a.corner) <
              std::pair(points.numberOf(b.point), b.corner);
     };
-    CornerOf* const last = this->corners.data() + this->count++;
+    CornerOf* const last = this->Corners.data() + this->Count++;
     *last = corner;
-    std::rotate(std::upper_bound(this->corners.data(), last, corner, comesBefore), last, last + 1);
+    std::rotate(std::upper_bound(this->Corners.data(), last, corner, comesBefore), last, last + 1);
   }
+
+  const CornerOf* begin() const { return this->Corners.data(); }
+  const CornerOf* end() const { return this->Corners.data() + this->Count; }
+  std::size_t size() const { return this->Count; }
+  std::size_t cellCount() const { return this->CellCount; }
+
+  /// Then the corners stay apart.
+  bool isTooLarge() const { return this->CellCount > maxMeeting; }
+
+private:
+  /// A cell has one corner there, and one more for each side that overlaps others.
+  std::array<CornerOf, 3 * maxMeeting> Corners;
+  std::size_t Count = 0;
+  std::size_t CellCount = 0;
 };
 
 /// Joins the corners of adjacent cells.
-class CornerJoiner
+class CornerJoiner : private LoweredCells
 {
 public:
-  CornerJoiner(const SurfacePoints& points, const std::vector<Vector>& planes,
-    const RawArray<LoweredCell>& cells)
-    : Points(points)
-    , Planes(planes)
-    , Cells(cells)
-  {
-  }
+  using LoweredCells::LoweredCells;
 
   /// A corner, moved to the mean of the corners that it meets, which is the same for all. Counts
   /// it.
@@ -115,14 +95,13 @@ public:
   {
     Meeting meeting;
     meeting.add(corner, this->Points);
-    if (!this->follow(corner, true, meeting))
-    {
-      this->follow(corner, false, meeting);
-    }
+    bool passesOverlap = false;
+    const bool isClosed = this->follow(corner, true, meeting, passesOverlap) ||
+                          this->follow(corner, false, meeting, passesOverlap);
     LoweredCell::Corner result = this->at(corner);
     const bool isInside = this->isBetweenPoints(corner);
     const bool isApart =
-      meeting.isTooLarge || meeting.isOverlapping || (meeting.count < 3 && isInside);
+      meeting.isTooLarge() || (passesOverlap && !isClosed) || (meeting.cellCount() < 3 && isInside);
     counts.inner += isInside ? 1 : 0;
     counts.apart += isInside && isApart ? 1 : 0;
     if (isApart)
@@ -136,16 +115,16 @@ public:
       }
       return result;
     }
-    const Vector& origin = this->at(meeting.corners.front()).position;
+    const Vector& origin = this->at(*meeting.begin()).position;
     Vector offset{ 0.0, 0.0, 0.0 };
     Vector normal{ 0.0, 0.0, 0.0 };
-    for (std::size_t i = 0; i < meeting.count; ++i)
+    for (const CornerOf& met : meeting)
     {
-      const LoweredCell::Corner& other = this->at(meeting.corners[i]);
+      const LoweredCell::Corner& other = this->at(met);
       offset = offset + (other.position - origin);
       normal += other.normal;
     }
-    result.position = origin + 1.0 / static_cast<double>(meeting.count) * offset;
+    result.position = origin + 1.0 / static_cast<double>(meeting.size()) * offset;
     result.normal = directionOf(normal);
     return result;
   }
@@ -167,8 +146,8 @@ private:
       minCosine = std::min(minCosine, dot(this->Planes[side.beyond], this->Planes[corner.point]));
       if (side.overlaps)
       {
-        longest = std::max(
-          longest, lengthOf(this->next(corner, isOnward).position - this->at(corner).position));
+        longest = std::max(longest,
+          lengthOf(this->at(this->next(corner, isOnward)).position - this->at(corner).position));
       }
     }
     return std::min(most,
@@ -230,76 +209,24 @@ private:
     return dot(offset, this->Planes[point]) - cell.unit * std::clamp(rise, -most, most);
   }
 
-  const LoweredCell::Corner& at(const CornerOf& corner) const
-  {
-    return this->Cells[corner.point].corners[corner.corner];
-  }
-
-  /// The next corner of the same cell or, backward, the previous one.
-  const LoweredCell::Corner& next(const CornerOf& corner, bool isOnward) const
-  {
-    const LoweredCell& cell = this->Cells[corner.point];
-    const std::size_t step = isOnward ? 1 : cell.count - 1;
-    return cell.corners[(corner.corner + step) % cell.count];
-  }
-
-  /// The side that begins at a corner or, backward, ends there.
-  const LoweredCell::Corner& sideAt(const CornerOf& corner, bool isOnward) const
-  {
-    return isOnward ? this->at(corner) : this->next(corner, false);
-  }
-
-  /// Whether both sides at a corner have a neighbor beyond: the surface continues there.
-  bool isBetweenPoints(const CornerOf& corner) const
-  {
-    return VoronoiCell::isPoint(this->sideAt(corner, true).beyond) &&
-           VoronoiCell::isPoint(this->sideAt(corner, false).beyond);
-  }
-
-  /// The corresponding corner of the cell across a shared side.
-  std::optional<CornerOf> across(const CornerOf& corner, bool isOnward) const
-  {
-    const std::size_t beyond = this->sideAt(corner, isOnward).beyond;
-    if (!VoronoiCell::isPoint(beyond) || this->sideAt(corner, isOnward).overlaps)
-    {
-      return std::nullopt;
-    }
-    const LoweredCell& other = this->Cells[beyond];
-    const std::size_t side = sideTowards(other, corner.point);
-    return side < other.count
-             ? std::optional(CornerOf{ beyond, isOnward ? (side + 1) % other.count : side })
-             : std::nullopt;
-  }
-
-  /// Whether two corners may be joined: the normals of their points do not oppose, and their
-  /// distance is at most 1.2 times their mean distance from their points.
-  bool areClose(const CornerOf& a, const CornerOf& b) const
-  {
-    constexpr double maxShare = 1.2;
-    const LoweredCell::Corner& atA = this->at(a);
-    const LoweredCell::Corner& atB = this->at(b);
-    return dot(this->Planes[a.point], this->Planes[b.point]) > 0.0 &&
-           lengthOf(atA.position - atB.position) <= maxShare * 0.5 * (atA.distance + atB.distance);
-  }
-
-  /// Adds the corners that follow the first one, from cell to cell around their meeting place.
-  /// @returns whether the cells close around it
-  bool follow(const CornerOf& first, bool isOnward, Meeting& meeting) const
+  /// Adds the corners that follow the first one, from cell to cell around their meeting place. A
+  /// side that overlaps another cell is passed: if the cells close around it, it becomes a corner.
+  /// @returns whether the cells close
+  bool follow(const CornerOf& first, bool isOnward, Meeting& meeting, bool& passesOverlap) const
   {
     CornerOf last = first;
-    while (!meeting.isTooLarge)
+    while (!meeting.isTooLarge())
     {
-      const std::optional<CornerOf> next = this->across(last, isOnward);
-      if (!next)
-      {
-        meeting.isOverlapping |= this->sideAt(last, isOnward).overlaps;
-        return false;
-      }
-      if (*next == first)
+      const bool overlaps = this->sideAt(last, isOnward).overlaps;
+      passesOverlap |= overlaps;
+      const std::optional<CornerOf> next =
+        overlaps ? std::optional(this->next(last, isOnward)) : this->across(last, isOnward);
+      if (next && *next == first)
       {
         return true;
       }
-      if (!this->areClose(last, *next))
+      if (!next ||
+          !(overlaps || (this->areClose(last, *next) && this->areAlike(last.point, next->point))))
       {
         return false;
       }
@@ -308,10 +235,6 @@ private:
     }
     return false;
   }
-
-  const SurfacePoints& Points;
-  const std::vector<Vector>& Planes;
-  const RawArray<LoweredCell>& Cells;
 };
 
 /// Sets everything but the normal of a splat.
@@ -321,15 +244,26 @@ void setShape(const CornerJoiner& joiner, std::size_t point, const Vector& posit
   const TangentFrame frame(splat.normal);
   std::array<Vector, maxCorners> offsets{};
   std::array<Vector, maxCorners> normals{};
+  std::size_t count = 0; // of the corners; those that became one count once
   splat.radius = 0.0;
   splat.counts = {};
   for (std::size_t i = 0; i < cell.count; ++i)
   {
     const LoweredCell::Corner corner = joiner.joined({ point, i }, splat.counts);
-    offsets[i] = corner.position - position;
-    normals[i] = corner.normal;
-    splat.radius = std::max(splat.radius, lengthOf(offsets[i]));
+    const Vector offset = corner.position - position;
+    if (count == 0 || offset != offsets[count - 1])
+    {
+      offsets[count] = offset;
+      normals[count] = corner.normal;
+      ++count;
+      splat.radius = std::max(splat.radius, lengthOf(offset));
+    }
   }
+  while (count > 1 && offsets[count - 1] == offsets[0])
+  {
+    --count;
+  }
+  splat.radius = count < 3 ? 0.0 : splat.radius; // the splats around it have closed over it
   splat.axis = splat.radius * frame.first;
   splat.corners = {};
   const bool isFiniteShape = std::all_of(
@@ -341,8 +275,8 @@ void setShape(const CornerJoiner& joiner, std::size_t point, const Vector& posit
   constexpr double maxSlope = 10.0;
   for (std::size_t i = 0; i < maxCorners; ++i)
   {
-    const Vector& offset = offsets[std::min(i, cell.count - 1)];
-    const Vector& normal = normals[std::min(i, cell.count - 1)];
+    const Vector& offset = offsets[std::min(i, count - 1)];
+    const Vector& normal = normals[std::min(i, count - 1)];
     const double upwards = std::max(dot(normal, splat.normal), 1.0 / maxSlope);
     const auto inRadii = [&](const Vector& direction)
     { return static_cast<float>(dot(offset, direction) / splat.radius); };
@@ -375,6 +309,7 @@ void shapeSplats(const Execution& execution, const SurfacePoints& points,
     },
     [&](double share) { execution.progress(0.5 * share); });
   cells = {};
+  cutOffTips(execution, points, planes, lowered);
   const CornerJoiner joiner(points, planes, lowered);
   forBatches(
     execution, shaped.size(), batch, grain,

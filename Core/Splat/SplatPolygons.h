@@ -12,13 +12,13 @@
 namespace isopoint
 {
 
-/// The maximum number of corners that are joined.
-constexpr std::size_t maxMeeting = 6;
+/// The maximum number of cells whose corners are joined.
+constexpr std::size_t maxMeeting = 7;
 
 /// How many rings of points affect a splat (see SurfaceHalo, IsopointNeighbors). Up to maxMeeting
 /// cells meet in a corner. The next cell is within three rings of the last one, and the cells that
-/// share a side with it within one more.
-constexpr int splatRings = 4 * static_cast<int>(maxMeeting);
+/// share a side with it within one more. Tips of the last one are cut off at cells within three.
+constexpr int splatRings = 4 * (static_cast<int>(maxMeeting) - 1);
 
 /// Makes splats from cells: projects the corners onto the surface and joins those that meet; see
 /// docs/algorithm.md, section 12.6. O(points)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/SplatMesh/SplatMesh.h"
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -86,6 +87,22 @@ SplatMesh buildSplatMesh(const Execution& execution, std::size_t points,
   std::vector<std::size_t> meetsAt = meetingVertices(partOf(execution, 2.0 * third, 1.0), vertices);
   ItemLists meeting(execution, vertices.size(), vertices.size(),
     [&meetsAt](std::size_t vertex) { return std::array<std::size_t, 1>{ meetsAt[vertex] }; });
+  // Corners of neighbors differ by rounding, and pixels between them would show what is behind. The
+  // least position does not depend on the order of the points.
+  forEachIndex(execution, vertices.size(),
+    [&](std::size_t first)
+    {
+      const IndexSpan<std::size_t> met = meeting.at(first);
+      Vector least = vertices[first].position;
+      for (const std::size_t vertex : met)
+      {
+        least = std::min(least, vertices[vertex].position);
+      }
+      for (const std::size_t vertex : met)
+      {
+        vertices[vertex].position = least;
+      }
+    });
   return { std::move(vertices), std::move(pointOfVertex), std::move(triangles), std::move(meetsAt),
     std::move(meeting) };
 }

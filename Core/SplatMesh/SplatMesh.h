@@ -15,7 +15,8 @@
 namespace isopoint
 {
 
-/// The triangles of all splats, in the order of their points. Splats do not share vertices.
+/// The triangles of all splats, in the order of their points. Splats do not share vertices, but
+/// vertices that coincide have exactly the same position.
 struct SplatMesh
 {
   std::vector<SplatVertex> vertices;

@@ -319,6 +319,26 @@ TEST(Splats, AreClosedAndBentAsTheSurfaceIs)
     corners.size() * 97 / 100);
 }
 
+// Cells with more than eight corners lose sides that others keep. Where several of these are
+// consecutive, the corners around them become one.
+TEST(Splats, MeetAtAllCornersOfASphere)
+{
+  for (const std::size_t count : { 3000, 12000 })
+  {
+    const std::vector<PlacedSplat> splats =
+      splatsOf(fittedSphere(count, 3.5 / std::sqrt(static_cast<double>(count))));
+    std::size_t inner = 0;
+    std::size_t apart = 0;
+    for (const PlacedSplat& splat : splats)
+    {
+      inner += splat.counts.inner;
+      apart += splat.counts.apart;
+    }
+    EXPECT_GT(inner, 5 * count);
+    EXPECT_EQ(apart, 0u);
+  }
+}
+
 // Rows ten times farther apart than points in a row: the nearest points all lie in one row.
 TEST(Splats, CoverTheGapsBetweenRows)
 {
@@ -413,6 +433,27 @@ TEST(Splats, EndSoonBeyondTheSamples)
     splatsOf(points, &samples), [](const PlacedSplat& splat) { return reachAlong(splat, 0); });
   EXPECT_GT(farthest, 0.1);
   EXPECT_LT(farthest, 1.5);
+}
+
+// A point whose edge leads far across a void, and one whose normal is wrong though its edge is not.
+TEST(Splats, OfStrayPointsAreHidden)
+{
+  Points points;
+  points.add({ 5.0, 5.0, 3.0 }, std::nullopt, { 1.0, 0.0, 1.0 });
+  points.decreasingEdges.back() = { -4.5, 0.0, 0.0 };
+  points.add({ 0.1, 0.0, 0.0 }, std::nullopt, { 0.5, 0.0, 0.9 });
+  points.decreasingEdges.back() = up;
+  for (int i = 0; i < 21 * 21; ++i)
+  {
+    points.add(
+      { 0.7 * (i / 21 - 10) + 0.35, 0.7 * (i % 21 - 10) + 0.35, 0.0 }, FitOrder::Quadratic, down);
+  }
+  const std::vector<PlacedSplat> splats = splatsOf(points);
+  EXPECT_EQ(splats[0].radius, 0.0);
+  EXPECT_EQ(splats[1].radius, 0.0);
+  EXPECT_TRUE(isCovered({ 0.1, 0.0, 0.0 }, splats, 1)) << "by others";
+  points.decreasingEdges[0] = { -3.5, 0.0, 0.0 };
+  EXPECT_GT(splatsOf(points)[0].radius, 0.5);
 }
 
 // The splats of a plane cover it once, wherever fits held.
@@ -581,28 +622,6 @@ TEST(Splats, CellsThatReachOverSidesOfOthersHaveMissedTheirPoints)
     arrayOf({ square(1.0, 1, 2), square(1.5, none, none), square(0.9, none, none) });
   EXPECT_EQ(missedPoints({}, { positions, positions, noFits }, planes, cells),
     std::vector<MissedPoint>{ MissedPoint(1, 0) });
-}
-
-// The sides before and after it are parallel: they do not meet.
-TEST(Splats, SidesThatOthersDroppedAreReplacedByTheirMiddle)
-{
-  for (const std::size_t cornersOfOther : { 7, 8 })
-  {
-    std::vector<VoronoiCell::Corner> others(cornersOfOther, { 0, 0, VoronoiCell::none });
-    others[4].beyond = 3;
-    others[5].beyond = 2;
-    const VoronoiCell mutual = withSharedSides(
-      arrayOf({ cellOf({ { -1, -1, VoronoiCell::none }, { 1, -1, 2 }, { 1, 1, 1 }, { -1, 1, 3 } }),
-        cellOf(others), cellOf({ { 0, 0, 0 } }), cellOf({ { 0, 0, 0 } }) }),
-      0);
-    const bool isDropped = cornersOfOther == maxCorners;
-    EXPECT_EQ(mutual.count, isDropped ? 3 : 4);
-    EXPECT_EQ(countOf(mutual, [](const VoronoiCell::Corner& corner) { return corner.overlaps; }),
-      isDropped ? 0 : 1);
-    EXPECT_EQ(countOf(mutual, [](const VoronoiCell::Corner& corner)
-                { return corner.x == 0.0 && corner.y == 1.0 && corner.beyond == 3; }),
-      isDropped ? 1 : 0);
-  }
 }
 
 // Each of four cells around a corner has a short side for the one across it.

@@ -4,7 +4,8 @@ outlines are as smooth as a mesh's, and in the same place. Nothing within the su
 
 import numpy as np
 from scenes import (
-    Scene, actor_of, ball_field, check, configured, differs, isopoints, polydata, psnr, run, torus_mesh, torus_splats)
+    Scene, actor_of, ball_field, check, configured, differs, isopoints, polydata, positions_of, psnr, run, subset,
+    torus_mesh, torus_splats)
 
 RADIUS = 70.0
 SAMPLES = 8  # as a window has by default; the driver may give fewer
@@ -33,6 +34,21 @@ def a_sphere_has_no_hole():
         holes, outside = np.count_nonzero(~covered & (place < -0.05)), np.count_nonzero(covered & (place > 1.0))
         print(f"{distance:5} radii away: {holes} holes, {outside} pixels outside")
         check(covered.any() and holes == outside == 0, f"the sphere {distance} radii away")
+
+
+def a_sphere_has_no_crack():
+    """The half of a sphere that the camera sees hides the background in each sample of each pixel."""
+    splats = isopoints(lambda p: RADIUS - np.linalg.norm(p, axis=1), -100.0, 100.0, 1_000_000)
+    for samples in (0, 4, SAMPLES):
+        cracks = 0
+        for position in ((200, 150, 270), (-300, 40, 130), (10, -280, -190), (-150, 260, -170)):
+            half = subset(splats, positions_of(splats) @ position > 0.0)
+            scene = Scene(actor_of(half, Lighting=False, Color=(0, 1, 0)), samples=samples, background=(1, 0, 0))
+            configured(scene.camera, Position=position, FocalPoint=(0, 0, 0), ViewUp=(0, 0, 1))
+            scene.renderer.ResetCameraClippingRange()
+            cracks += np.count_nonzero((scene.image()[..., 0] > 0) & (outline(scene, RADIUS) < -2.0))
+        print(f"{samples} samples: {cracks} pixels with cracks")
+        check(cracks == 0, "no crack")
 
 
 def picture(data, splats, camera, background=(1, 0, 1), samples=SAMPLES, lighting=True):
@@ -87,4 +103,4 @@ def nothing_inside_is_cut_away():
             check(holes == 0, f"holes in the {name}")
 
 
-run(a_sphere_has_no_hole, outlines_are_those_of_the_mesh, nothing_inside_is_cut_away)
+run(a_sphere_has_no_hole, a_sphere_has_no_crack, outlines_are_those_of_the_mesh, nothing_inside_is_cut_away)

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Core/Splat/CellTips.h"
+
+#include "Core/Base/Lists.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+
+namespace isopoint
+{
+namespace
+{
+
+struct Tip
+{
+  CornerOf corner;
+  /// Where the cells before and after it end, if they do not get there.
+  std::array<std::optional<LoweredCell::Corner>, 2> ends;
+};
+
+/// The end of the cell across a side, if that cell ends at a border before it gets to a corner.
+std::optional<LoweredCell::Corner> endBefore(
+  const LoweredCells& cells, const CornerOf& corner, bool isOnward)
+{
+  const std::optional<CornerOf> end = cells.across(corner, isOnward);
+  if (!end || VoronoiCell::isPoint(cells.sideAt(*end, isOnward).beyond) ||
+      cells.areClose(corner, *end) || !cells.areAlike(corner.point, end->point))
+  {
+    return std::nullopt;
+  }
+  LoweredCell::Corner result = cells.at(*end);
+  result.distance = lengthOf(result.position - cells.Points.positions[corner.point]);
+  return result.distance < cells.at(corner).distance ? std::optional(result) : std::nullopt;
+}
+
+void cutOff(const Tip& tip, LoweredCell& cell)
+{
+  if (cell.count == maxCorners)
+  {
+    return;
+  }
+  LoweredCell::Corner* const corner = cell.corners.data() + tip.corner.corner;
+  const LoweredCell::Corner cut = *corner;
+  std::copy_backward(
+    corner, cell.corners.data() + cell.count, cell.corners.data() + cell.count + 1);
+  ++cell.count;
+  corner[0] = tip.ends[0].value_or(cut);
+  corner[0].beyond = VoronoiCell::none;
+  corner[0].overlaps = false;
+  corner[1] = tip.ends[1].value_or(cut);
+  corner[1].beyond = cut.beyond;
+  corner[1].overlaps = cut.overlaps;
+}
+
+} // namespace
+
+void cutOffTips(const Execution& execution, const SurfacePoints& points,
+  const std::vector<Vector>& planes, RawArray<LoweredCell>& cells)
+{
+  constexpr std::size_t grain = 4096;
+  const LoweredCells all(points, planes, cells);
+  const std::vector<Tip> tips = collected<Tip>(execution, { cells.size(), 16 * grain, grain },
+    [&](std::size_t begin, std::size_t end, std::vector<Tip>& found)
+    {
+      for (std::size_t point = begin; point < end; ++point)
+      {
+        // The last one first: cutting it off leaves the indices of the others.
+        for (std::size_t i = cells[point].count; i-- > 0;)
+        {
+          const CornerOf corner{ point, i };
+          if (all.isBetweenPoints(corner))
+          {
+            const Tip tip{ corner,
+              { endBefore(all, corner, false), endBefore(all, corner, true) } };
+            if (tip.ends[0] || tip.ends[1])
+            {
+              found.push_back(tip);
+            }
+          }
+        }
+      }
+    });
+  for (const Tip& tip : tips)
+  {
+    cutOff(tip, cells[tip.corner.point]);
+  }
+}
+
+} // namespace isopoint
