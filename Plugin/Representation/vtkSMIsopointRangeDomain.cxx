@@ -39,9 +39,9 @@ void vtkSMIsopointRangeDomain::Update(vtkSMProperty* requestingProperty)
   this->Superclass::Update(requestingProperty);
   vtkSMProperty* const selection = this->GetRequiredProperty("ArraySelection");
   vtkSMProperty* const property = this->GetProperty();
-  if (!selection || !property)
+  if (!selection || !property || !property->GetParent())
   {
-    return;
+    return; // the proxy is deleted
   }
   vtkSMUncheckedPropertyHelper shown(selection);
   const std::string array = chosenArray(shown);

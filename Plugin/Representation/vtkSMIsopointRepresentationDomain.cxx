@@ -65,12 +65,17 @@ bool vtkSMIsopointRepresentationDomain::AreIsopoints(vtkPVDataInformation* data)
 void vtkSMIsopointRepresentationDomain::Update(vtkSMProperty* requestingProperty)
 {
   this->Superclass::Update(requestingProperty);
+  // A property keeps the domains that depend on it, also after their proxy is deleted.
+  vtkSMProperty* const property = this->GetProperty();
+  vtkSMProxy* const part = property ? property->GetParent() : nullptr;
+  if (!part)
+  {
+    return;
+  }
   if (!this->Types)
   {
-    vtkSMProxy* const part = this->GetProperty()->GetParent();
-    vtkSMProxy* const whole = part ? part->GetTrueParentProxy() : nullptr;
     this->Types = vtkSMStringVectorProperty::SafeDownCast(
-      whole ? whole->GetProperty("RepresentationTypesInfo") : nullptr);
+      part->GetTrueParentProxy()->GetProperty("RepresentationTypesInfo"));
     if (this->Types)
     {
       this->Types->AddObserver(
@@ -117,11 +122,11 @@ int vtkSMIsopointRepresentationDomain::SetDefaultValues(
 {
   vtkPVDataInformation* const data = this->GetInputDataInformation("Input");
   this->NoticeSplats();
-  if (!AreIsopoints(data) && !(isEmpty(data) && this->HasSplats))
+  vtkSMProxy* const part = property->GetParent();
+  if (!part || (!AreIsopoints(data) && !(isEmpty(data) && this->HasSplats)))
   {
     return 0;
   }
-  vtkSMProxy* const part = property->GetParent();
   vtkSMPropertyHelper helper(part->GetTrueParentProxy(), "Representation");
   helper.SetUseUnchecked(usesUncheckedValues);
   helper.Set(splats);

@@ -159,6 +159,27 @@ def arrays_may_come_later():
         check(isopoints.ContourBy[1] == "late", "the choice stays")
 
 
+def properties_may_outlive_proxies():
+    """As in a script or a panel that keeps them. What depends on a property ignores its changes then."""
+    without, source = produced(lattice("POINTS")), produced(lattice("POINTS", distance=distance))
+    for create in FILTERS:
+        isopoints, shown = create(Input=without), simple.Show(create(Input=source))
+        array, *others = map(isopoints.SMProxy.GetProperty, ("SelectInputScalars", "ContourValues", "Input"))
+        splats = shown.SMProxy.GetProperty("SplatsForIsopoints")
+        others += [splats, splats.GetParent().GetProperty("Input")]
+        for each in (isopoints, shown):
+            simple.Delete(each)
+        del isopoints, shown, each
+        check([each.GetParent() for each in [array, *others]] == 5 * [None], "the proxies are deleted")
+        array.SetElement(4, "other")  # the isovalue waits for an array
+        del splats
+        while others:
+            for each in others:
+                each.ResetToDomainDefaults()
+                each.InvokeEvent("UncheckedPropertyModifiedEvent")
+            others.pop(0)
+
+
 def panel():
     source = simple.Wavelet()
     for name, has_both in (("DropGaps", True), ("Regularize", False)):
@@ -172,4 +193,4 @@ def panel():
 
 run(the_array_of_an_input, arrays_without_isosurfaces_are_not_offered, triangles_are_saved_as_stl,
     input_matters_rather_than_the_active_source, isovalue_follows_the_array, arrays_may_come_later,
-    panel)
+    properties_may_outlive_proxies, panel)
