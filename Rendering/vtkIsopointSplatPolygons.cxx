@@ -218,7 +218,8 @@ void vtkIsopointSplatPolygons::SetRadiusScale(double scale)
 {
   if (scale < 0.0)
   {
-    vtkWarningMacro("The radius scale " << scale << " is negative: nothing is drawn. Set it to 1 for"
+    vtkWarningMacro("The radius scale " << scale
+                                        << " is negative: nothing is drawn. Set it to 1 for"
                                         << " splats that close the surface.");
   }
   const double clamped = std::max(scale, 0.0);

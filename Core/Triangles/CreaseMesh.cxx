@@ -180,8 +180,7 @@ std::vector<Facet> withoutShortEdges(
     std::vector<SurfaceTriangle> triangles(facets.size());
     forEachIndex(
       execution, facets.size(), [&](std::size_t i) { triangles[i] = facets[i].corners; });
-    FacetMesh mesh(
-      execution, whole.surface.positions, whole.isInner, std::move(facets));
+    FacetMesh mesh(execution, whole.surface.positions, whole.isInner, std::move(facets));
     const auto staysOnPiece = [&](const Facet& moved)
     {
       constexpr double minCosine = 0.95;

@@ -37,8 +37,8 @@ public:
   /// Merges lost vertices with the nearest neighbor that inverts no triangle. Sets Pieces.
   std::vector<Facet> withoutLost(std::vector<Facet> facets)
   {
-    FacetMesh mesh(this->Exec, this->Whole.surface.positions, this->Whole.isInner,
-      std::move(facets));
+    FacetMesh mesh(
+      this->Exec, this->Whole.surface.positions, this->Whole.isInner, std::move(facets));
     forEachInOrder(this->Exec, this->Whole.isInner.size(),
       [&](std::size_t vertex)
       {

@@ -15,8 +15,7 @@ std::vector<VertexPair> shortEdges(const Execution& execution, const std::vector
 {
   constexpr double shortEdge = 0.55;
   constexpr double equilateral = 1.5196713713031851; // side over the root of the area
-  const auto edgeOf = [&](std::size_t a, std::size_t b)
-  { return positions[b] - positions[a]; };
+  const auto edgeOf = [&](std::size_t a, std::size_t b) { return positions[b] - positions[a]; };
   std::vector<double> areas(positions.size(), 0.0); // of the triangles around
   std::vector<double> counts(positions.size(), 0.0);
   forEachInOrder(execution, triangles.size(),

@@ -27,8 +27,7 @@ std::vector<Vector> triangleNormals(const Execution& execution,
     [&](std::size_t i)
     {
       const auto& [a, b, c] = triangles[i];
-      const Vector normal =
-        cross(positions[b] - positions[a], positions[c] - positions[a]);
+      const Vector normal = cross(positions[b] - positions[a], positions[c] - positions[a]);
       for (const std::size_t vertex : { a, b, c })
       {
         sums[vertex] += normal;

@@ -5,7 +5,8 @@
  *
  * The arrays of vtkSMArrayListDomain, without ghost marks and arrays without finite values (such as
  * strings). The default is that of vtkSMArrayListDomain or, if that array is constant (as block
- * numbers often are), or holds ids or numbers of points or cells, the first array that does neither.
+ * numbers often are), or holds ids or numbers of points or cells, the first array that does
+ * neither.
  */
 #ifndef vtkSMIsopointArrayDomain_h
 #define vtkSMIsopointArrayDomain_h
@@ -30,9 +31,9 @@ public:
 
   /**
    * Sets the default when the input gets its first array. Sets it again when another input replaces
-   * the former one, if the new input has no such array or, while the filter is being created, if the
-   * array is still the former default: scripts first connect the active source, then the input that
-   * they name.
+   * the former one, if the new input has no such array or, while the filter is being created, if
+   * the array is still the former default: scripts first connect the active source, then the input
+   * that they name.
    */
   void Update(vtkSMProperty* requestingProperty) override;
 

@@ -5,7 +5,8 @@
  *
  * The default isovalue is the middle of the array's range, as with vtkSMArrayRangeDomain. If
  * another array is chosen while the isovalue is the default, or an array comes where there was
- * none, it becomes the middle of the new range. Other isovalues, those of a loaded state, and all if only the data change, are kept.
+ * none, it becomes the middle of the new range. Other isovalues, those of a loaded state, and all
+ * if only the data change, are kept.
  *
  * The required properties are those of vtkSMArrayRangeDomain: "Input", "ArraySelection".
  */

@@ -5,8 +5,8 @@
  *
  * A domain for a property of the representation's proxy; it sets the property "Representation" of
  * the proxy around it. For data without splats, it keeps the default and removes the type from the
- * list "RepresentationTypesInfo". Empty data have splats if the input had splats before, or if it is
- * the filter that makes them.
+ * list "RepresentationTypesInfo". Empty data have splats if the input had splats before, or if it
+ * is the filter that makes them.
  *
  * The required property "Input" provides the data.
  */
@@ -55,8 +55,8 @@ private:
   void NoticeSplats();
 
   vtkWeakPointer<vtkSMStringVectorProperty> Types; // offered types, in the order of their names
-  vtkWeakPointer<vtkSMProxy> Source;              // the input
-  bool HasSplats = false;                         // whether it has splats, as far as known
+  vtkWeakPointer<vtkSMProxy> Source;               // the input
+  bool HasSplats = false;                          // whether it has splats, as far as known
 
   vtkSMIsopointRepresentationDomain(const vtkSMIsopointRepresentationDomain&) = delete;
   void operator=(const vtkSMIsopointRepresentationDomain&) = delete;

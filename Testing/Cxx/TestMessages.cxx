@@ -165,8 +165,7 @@ TEST(Messages, TooFewSamplesAreCounted)
   setScalars(
     cloud, [](const Vector& p) { return p[0]; }, "distance");
   const auto limits = distancesOf(cloud)->GetRange();
-  const Words messages =
-    messagesOf(newFilter<Isosurface>(cloud, 0.5 * (limits[0] + limits[1])));
+  const Words messages = messagesOf(newFilter<Isosurface>(cloud, 0.5 * (limits[0] + limits[1])));
   expectOne(messages, { "only 3 samples", "Add samples" });
   EXPECT_EQ(messages.front().find("DropGaps"), std::string::npos);
 }
