@@ -117,8 +117,8 @@ void fitAt(const Execution& execution, ExtractionContext<TSample>& context, TRan
   const std::vector<Vector>& starts, const std::vector<TreePlace>& places,
   std::vector<LocalFit>& fits)
 {
-  // Small batches: fits are slow where cells touch hundreds of others.
-  constexpr std::size_t grain = 256;
+  // Small batches: fits are slow where cells touch hundreds of others, and those with creases.
+  const std::size_t grain = request.highest == FitOrder::Crease ? 16 : 256;
   ranks.forEach(
     execution, { places.size(), 4 * grain, grain },
     [&]() { return NeighborhoodFitter<TSample>(context, request); },

@@ -63,8 +63,8 @@ private:
   void forPoints(const Execution& execution, const std::vector<std::size_t>& own,
     const MakeWorker& makeWorker, const Work& work)
   {
-    constexpr std::size_t batch = 8192;
-    constexpr std::size_t grain = 512;
+    constexpr std::size_t batch = 2048;
+    constexpr std::size_t grain = 128;
     this->Chosen.forEach(
       execution, { own.size(), batch, grain }, makeWorker,
       [&](auto& worker, std::size_t i) { work(worker, own[i]); },

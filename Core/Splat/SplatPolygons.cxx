@@ -293,8 +293,8 @@ void shapeSplats(const Execution& execution, const SurfacePoints& points,
   RawArray<VoronoiCell> cells, const std::vector<Vector>& planes,
   const std::vector<std::size_t>& shaped, std::vector<Splat>& splats)
 {
-  constexpr std::size_t batch = 8192;
-  constexpr std::size_t grain = 512;
+  constexpr std::size_t batch = 2048;
+  constexpr std::size_t grain = 128;
   RawArray<LoweredCell> lowered;
   lowered.resize(cells.size());
   forBatches(

@@ -13,7 +13,7 @@ FOLDER = pathlib.Path(__file__).parents[2] / "Benchmark"
 COMMANDS = (
     "accuracy.py --samples 2000 --fields sphere cube --noise 1", "cost.py --samples 0.02 --runs 1",
     "defaults.py --samples 0.02 --runs 1", "triangle_quality.py --samples 0.02", "smoothing.py --samples 2000",
-    "ghosts.py --side 12", "progress.py --samples 20000", "speed.py --largest 0.01")
+    "ghosts.py --side 12", "cancellation.py --nodes 12", "progress.py --samples 20000", "speed.py --largest 0.01")
 
 
 class Benchmarks(unittest.TestCase):
