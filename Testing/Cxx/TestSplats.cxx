@@ -3,6 +3,7 @@
 #include "Clouds.h"
 
 #include "Core/Extraction/WholeSurface.h"
+#include "Core/Splat/CellTips.h"
 #include "Core/Splat/SharedSides.h"
 #include "Core/Splat/SplatGeometry.h"
 
@@ -323,20 +324,16 @@ TEST(Splats, AreClosedAndBentAsTheSurfaceIs)
 // consecutive, the corners around them become one.
 TEST(Splats, MeetAtAllCornersOfASphere)
 {
-  for (const std::size_t count : { 3000, 12000 })
+  constexpr std::size_t count = 4000;
+  std::size_t inner = 0;
+  std::size_t apart = 0;
+  for (const PlacedSplat& splat : splatsOf(fittedSphere(count, 0.055)))
   {
-    const std::vector<PlacedSplat> splats =
-      splatsOf(fittedSphere(count, 3.5 / std::sqrt(static_cast<double>(count))));
-    std::size_t inner = 0;
-    std::size_t apart = 0;
-    for (const PlacedSplat& splat : splats)
-    {
-      inner += splat.counts.inner;
-      apart += splat.counts.apart;
-    }
-    EXPECT_GT(inner, 5 * count);
-    EXPECT_EQ(apart, 0u);
+    inner += splat.counts.inner;
+    apart += splat.counts.apart;
   }
+  EXPECT_GT(inner, 5 * count);
+  EXPECT_EQ(apart, 0u);
 }
 
 // Rows ten times farther apart than points in a row: the nearest points all lie in one row.
@@ -454,6 +451,38 @@ TEST(Splats, OfStrayPointsAreHidden)
   EXPECT_TRUE(isCovered({ 0.1, 0.0, 0.0 }, splats, 1)) << "by others";
   points.decreasingEdges[0] = { -3.5, 0.0, 0.0 };
   EXPECT_GT(splatsOf(points)[0].radius, 0.5);
+}
+
+// The first cell sticks out between two that end at a border before they reach its corner.
+TEST(Splats, EndBetweenOthersWhereTheseEnd)
+{
+  const std::vector<Vector> positions{ { 0, 0, 0 }, { 2, 2, 0 }, { -2, 2, 0 } };
+  const std::vector<Vector> planes(3, up);
+  const std::vector<LocalFit> noFits;
+  const SurfacePoints points{ positions, positions, noFits };
+  constexpr std::size_t none = VoronoiCell::none;
+  const auto cellAt = [](const std::vector<std::pair<Vector, std::size_t>>& corners)
+  {
+    LoweredCell cell{};
+    for (const auto& [position, beyond] : corners)
+    {
+      cell.corners[cell.count++] = { position, up, 1.0, beyond, false };
+    }
+    return cell;
+  };
+  RawArray<LoweredCell> cells;
+  cells.resize(3);
+  cells[0] = cellAt({ { { -1, 0, 0 }, none }, { { 1, 0, 0 }, 1 }, { { 0, 3, 0 }, 2 } });
+  cells[1] = cellAt({ { { 1, 0, 0 }, none }, { { 3, 1, 0 }, none }, { { 0.9, 0.3, 0 }, 0 } });
+  cells[2] = cellAt({ { { -0.9, 0.3, 0 }, none }, { { -3, 1, 0 }, none }, { { -1, 0, 0 }, 0 } });
+  cells[0].corners[2].distance = 3.0;
+  cutOffTips({}, points, planes, cells);
+  ASSERT_EQ(cells[0].count, 4u);
+  EXPECT_EQ(cells[0].corners[2].position, (Vector{ 0.9, 0.3, 0.0 }));
+  EXPECT_EQ(cells[0].corners[2].beyond, none);
+  EXPECT_EQ(cells[0].corners[3].position, (Vector{ -0.9, 0.3, 0.0 }));
+  EXPECT_EQ(cells[0].corners[3].beyond, 2u);
+  EXPECT_EQ(cells[1].count + cells[2].count, 6u);
 }
 
 // The splats of a plane cover it once, wherever fits held.

@@ -246,7 +246,9 @@ def shapes_are_those_of_vertices():
     for kind in (with_vertices([[i] for i in some], some), grid_of(with_vertices([[i] for i in some], some))):
         triangles, _, output = triangles_of(kind)
         drawn = np.isin(array(output, "vtkOriginalPointIds")[corners_of(output)[:, 0]], some)
-        check(np.array_equal(triangles[drawn], expected[np.isin(ids, some)]), "where there is one")
+        # Shared corners lie where one of those that meet lies, up to rounding.
+        same = expected[np.isin(ids, some)]
+        check(len(same) == drawn.sum() and np.allclose(triangles[drawn], same, rtol=0, atol=1e-6), "where there is one")
         missing = octagons.reshape(-1, OCTAGON, 3, 3)[~np.isin(visible, some)]
         check(np.array_equal(triangles[~drawn], missing.reshape(-1, 3, 3)), "octagons elsewhere")
     # Files may have them at the points.
