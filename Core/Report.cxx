@@ -232,9 +232,9 @@ Message describeBeyondFloat(const Report& report)
   }
   return { "points beyond float of " + report.array + ": " +
              tenths(report.beyondFloat, report.pointCount()),
-    "Positions or splats of " + std::to_string(report.beyondFloat) + " of " +
-      std::to_string(report.pointCount()) +
-      " points overflow float, the type of their arrays. Choose another unit of length." };
+    "Arrays of type float cannot hold positions or splats of " +
+      std::to_string(report.beyondFloat) + " of " + std::to_string(report.pointCount()) +
+      " points. Choose another unit of length." };
 }
 
 std::vector<Message> describeReplacedArrays(const Report& report)
@@ -299,8 +299,10 @@ void Report::countSurface(std::size_t isovalue, const ExtractedIsosurface& surfa
     const Vector& p = surface.surface.positions[i];
     const double farthest = std::max({ std::abs(p[0]), std::abs(p[1]), std::abs(p[2]) });
     const double radius = surface.splats.empty() ? 0.0 : surface.splats[i].radius;
-    const bool isBeyond = (this->areSinglePoints && farthest > Float::max()) ||
-                          radius > Float::max() || (radius > 0.0 && radius < Float::min());
+    const auto isBeyondFloat = [](double length)
+    { return length > Float::max() || (length > 0.0 && length < Float::min()); };
+    const bool isBeyond =
+      (this->areSinglePoints && isBeyondFloat(farthest)) || isBeyondFloat(radius);
     this->beyondFloat += isHere(i) && isBeyond ? 1 : 0;
   }
   for (std::size_t i = 0; i < surface.splats.size(); ++i)

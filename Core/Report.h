@@ -51,7 +51,7 @@ struct Report
   std::uint64_t innerCorners = 0;             // of splats, see SplatCornerCounts
   std::uint64_t cornersApart = 0;             // corners that meet no others
   std::uint64_t droppedInGaps = 0;            // dropped edges or tetrahedra
-  std::uint64_t beyondFloat = 0;              // points with a position or radius that float lacks
+  std::uint64_t beyondFloat = 0;              // points with a position or radius that float cannot hold
   std::uint64_t samples = 0;                  // all, including skipped ones
   std::uint64_t notFinite = 0;                // samples with such a coordinate or value
   std::uint64_t excluded = 0;                 // samples left out by the caller, such as ghosts

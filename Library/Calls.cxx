@@ -477,6 +477,11 @@ isopoint_status isopoint_join_messages(isopoint_surface* surface, const isopoint
       {
         throw UsageError("The surfaces have different isovalues. Extract them at the same.");
       }
+      if (surface == other || surface->report.areTriangles != other->report.areTriangles ||
+          surface->report.samples == 0 || other->report.samples == 0)
+      {
+        throw UsageError("Messages are joined of two surfaces, extracted with the same options.");
+      }
       isopoint::Report joined = surface->report;
       joined.add(other->report);
       surface->messages = describe(joined);

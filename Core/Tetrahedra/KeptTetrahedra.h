@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <utility>
 
 namespace isopoint
 {
@@ -36,13 +37,12 @@ struct KeptTetrahedra
   bool isWhole = false; // whether all samples are in it
 };
 
-/// Sets a band to null. @throws Aborted, after which it is empty
+/// Sets a band to null. @throws Aborted, after which it is null, too
 inline void dropTetrahedra(const Execution& execution, std::unique_ptr<KeptTetrahedra>& band)
 {
-  if (band)
+  if (const auto dropped = std::move(band))
   {
-    band->triangulation.clear(execution);
-    band.reset();
+    dropped->triangulation.clear(execution);
   }
 }
 

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <exception>
+#include <functional>
 #include <utility>
 
 namespace isopoint
@@ -153,12 +155,28 @@ void PartialTriangulation::clear(const Execution& execution)
 {
   this->dropLists();
   bool isAborted = false;
-  const std::function<void()> ask = [&]() { isAborted = isAborted || execution.aborted(); };
+  std::exception_ptr failure; // destructors ask, which must not throw
+  const std::function<void()> ask = [&]()
+  {
+    try
+    {
+      isAborted = isAborted || execution.aborted();
+    }
+    catch (...)
+    {
+      failure = std::current_exception();
+      isAborted = true;
+    }
+  };
   band::freesCells = &ask;
   this->Inside->Cells.tds().vertices().clear();
   ask();
   this->Inside->Cells.clear();
   band::freesCells = nullptr;
+  if (failure)
+  {
+    std::rethrow_exception(failure);
+  }
   if (isAborted || execution.aborted())
   {
     throw Aborted();

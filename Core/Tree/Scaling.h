@@ -62,8 +62,8 @@ std::vector<std::uint64_t> countExponents(const SampleTree<TSample>& tree)
 }
 
 /// The exponent of the power of two by which positions that are out of scale are divided: the
-/// median of all, so that few samples far away do not matter. As division is exact, results are the
-/// same at any scale.
+/// median of all, so that few samples far away do not matter. Division is exact, unless coordinates
+/// are 2^1022 times as small as most: then they lose digits, or become 0.
 /// @param greatest coordinate of all samples
 /// @param counts by exponent, of all samples
 inline int scaleExponent(double greatest, const std::vector<std::uint64_t>& counts)

@@ -14,8 +14,7 @@
 namespace isopoint
 {
 
-CreaseSurface::CreaseSurface(
-  const Execution& execution, Isosurface& vertices, const std::vector<SurfaceTriangle>& triangles)
+CreaseSurface::CreaseSurface(const Execution& execution, Isosurface& vertices)
   : surface(vertices)
   , normals(vertices.fits.size())
 {
@@ -209,7 +208,7 @@ public:
   CreaseMesher(
     const Execution& execution, Isosurface& surface, std::vector<SurfaceTriangle>& triangles)
     : Exec(execution)
-    , Whole(execution, surface, triangles)
+    , Whole(execution, surface)
     , Triangles(triangles)
   {
   }

@@ -20,8 +20,7 @@ struct CreaseSurface
 {
   /// @param vertices with fits
   /// @throws std::bad_alloc, Aborted
-  CreaseSurface(const Execution& execution, Isosurface& vertices,
-    const std::vector<SurfaceTriangle>& triangles);
+  CreaseSurface(const Execution& execution, Isosurface& vertices);
 
   const LocalFit& fitOf(std::size_t vertex) const { return this->surface.fits[vertex]; }
   bool isFitted(std::size_t vertex) const { return this->fitOf(vertex).order.has_value(); }

@@ -412,10 +412,10 @@ TEST(Library, LengthsThatOverflowFloatAreExplained)
     });
   for (const double scale : { 1e-300, 1e300 })
   {
-    expectContains(messageAt(scale, defaults), "overflow float");
+    expectContains(messageAt(scale, defaults), "float cannot hold");
     EXPECT_EQ(messageAt(scale, withTriangles), "");
   }
-  expectContains(messageAt(1e300, single), "overflow float");
+  expectContains(messageAt(1e300, single), "float cannot hold");
   EXPECT_EQ(messageAt(1e30, defaults), "");
   EXPECT_EQ(messageAt(1e30, single), "");
 }
@@ -603,6 +603,54 @@ TEST(Library, ACanceledCallCanBeRepeated)
   EXPECT_EQ(cloud.load(extractor.get()), ISOPOINT_OK);
 }
 
+// At each question, also while kept tetrahedra are freed, where a callback may throw as well.
+TEST(Library, CanceledTrianglesCanBeRepeated)
+{
+  const Extractor extractor(Cloud(600));
+  ASSERT_EQ(isopoint_set_threads(extractor.get(), 1), ISOPOINT_OK);
+  const isopoint_options dropping = optionsWith(
+    [](isopoint_options& options)
+    {
+      options.triangles = 1;
+      options.keep_tetrahedra = 0;
+    });
+  const std::string expected = bytesOf(extractor.extract({ 0.7 }, withTriangles));
+  Observed observed;
+  ASSERT_EQ(isopoint_set_callbacks(extractor.get(), nullptr, isCanceled, &observed), ISOPOINT_OK);
+  isopoint_status status = ISOPOINT_CANCELED;
+  int questions = 0;
+  for (; status == ISOPOINT_CANCELED; ++questions)
+  {
+    observed.cancelAfter = -1;
+    ASSERT_EQ(bytesOf(extractor.extract({ 0.7 }, withTriangles)), expected) << questions;
+    observed.asked = 0;
+    observed.cancelAfter = questions;
+    const double isovalue = 0.7;
+    isopoint_surface* surface = nullptr;
+    status = isopoint_extract(extractor.get(), &isovalue, 1, &dropping, &surface);
+    isopoint_destroy_surface(surface);
+  }
+  EXPECT_EQ(status, ISOPOINT_OK);
+  EXPECT_GT(questions, 20);
+  const auto throwsAtTheEnd = [](void* user) -> int
+  { return isCanceled(user) ? throw std::logic_error("thrown") : 0; };
+  for (int back = 2; back < 8; ++back) // questions before the last one
+  {
+    ASSERT_EQ(isopoint_set_callbacks(extractor.get(), nullptr, nullptr, nullptr), ISOPOINT_OK);
+    const Cloud cloud(600);
+    ASSERT_EQ(cloud.load(extractor.get()), ISOPOINT_OK);
+    ASSERT_EQ(bytesOf(extractor.extract({ 0.7 }, withTriangles)), expected);
+    ASSERT_EQ(
+      isopoint_set_callbacks(extractor.get(), nullptr, throwsAtTheEnd, &observed), ISOPOINT_OK);
+    observed.asked = 0;
+    observed.cancelAfter = questions - back;
+    const double isovalue = 0.7;
+    isopoint_surface* surface = nullptr;
+    EXPECT_EQ(isopoint_extract(extractor.get(), &isovalue, 1, &dropping, &surface),
+      ISOPOINT_INTERNAL_ERROR);
+  }
+}
+
 // Those of an extraction, which may be gone, and those of kept splats, which have none.
 TEST(Library, SurfacesTakeOtherCallbacksAndThreads)
 {
@@ -691,6 +739,7 @@ TEST(Library, MessagesAreJoined)
   const Surface other = Extractor(Cloud()).extract({ 0.5 });
   expectInvalid(isopoint_join_messages(joined.get(), other.get()), "isovalues");
   expectInvalid(isopoint_join_messages(joined.get(), nullptr), "other surface");
+  expectInvalid(isopoint_join_messages(joined.get(), joined.get()), "two surfaces");
 }
 
 TEST(Library, TwoExtractorsWorkOnTwoThreads)

@@ -33,7 +33,8 @@ class HelpTest(unittest.TestCase):
         for name in ("ScatteredIsopoints", "ScatteredIsosurface"):
             page = self.pages[f"filters.{name}.html"].decode()
             for mark, least in (
-                    ('<img src="comparison.png"', 1), ("<i>A sphere from a million random samples.", 1), ("<p>", 5), ("<h3>When points, when triangles</h3>", 1)):
+                    ('<img src="comparison.png"', 1), ("<i>A sphere from a million random samples.", 1),
+                    ("<p>", 5), ("<h3>When points, when triangles</h3>", 1)):
                 self.assertGreaterEqual(page.count(mark), least, mark)
             self.assertNotIn("**", page)
             self.assertRegex(page, r"(?s)Clip\b.*Scattered\s+Isosurface" if "points" in name else "Slice and Clip")
