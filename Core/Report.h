@@ -41,22 +41,22 @@ struct CloudCounts
 /// Counts of an extraction of isovalues from clouds, and properties needed to assess them.
 struct Report
 {
-  std::vector<double> isovalues;              // ascending
-  std::vector<std::uint64_t> points;          // by isovalue
-  bool areTriangles = false;                  // whether points are connected
-  bool areProjected = false;                  // whether fits were to move points
-  bool areSinglePoints = false;               // whether positions become float
-  bool contoursBlocks = false;                // whether each block is its own cloud
-  std::uint64_t unprojectedPoints = 0;        // not moved by a fit
-  std::uint64_t innerCorners = 0;             // of splats, see SplatCornerCounts
-  std::uint64_t cornersApart = 0;             // corners that meet no others
-  std::uint64_t droppedInGaps = 0;            // dropped edges or tetrahedra
-  std::uint64_t beyondFloat = 0;              // points with a position or radius that float cannot hold
-  std::uint64_t samples = 0;                  // all, including skipped ones
-  std::uint64_t notFinite = 0;                // samples with such a coordinate or value
-  std::uint64_t excluded = 0;                 // samples left out by the caller, such as ghosts
-  std::uint64_t withoutArray = 0;             // samples of data sets without the contoured array
-  std::string array;                          // its name, may be empty
+  std::vector<double> isovalues;       // ascending
+  std::vector<std::uint64_t> points;   // by isovalue
+  bool areTriangles = false;           // whether points are connected
+  bool areProjected = false;           // whether fits were to move points
+  bool areSinglePoints = false;        // whether positions become float
+  bool contoursBlocks = false;         // whether each block is its own cloud
+  std::uint64_t unprojectedPoints = 0; // not moved by a fit
+  std::uint64_t innerCorners = 0;      // of splats, see SplatCornerCounts
+  std::uint64_t cornersApart = 0;      // corners that meet no others
+  std::uint64_t droppedInGaps = 0;     // dropped edges or tetrahedra
+  std::uint64_t beyondFloat = 0;       // points with a position or radius that float cannot hold
+  std::uint64_t samples = 0;           // all, including skipped ones
+  std::uint64_t notFinite = 0;         // samples with such a coordinate or value
+  std::uint64_t excluded = 0;          // samples left out by the caller, such as ghosts
+  std::uint64_t withoutArray = 0;      // samples of data sets without the contoured array
+  std::string array;                   // its name, may be empty
   std::string excludedAs = "ghost or hidden"; // the caller's word for excluded samples
   std::set<std::string> replacedArrays;       // input arrays named like a computed one
   bool isPieceOfProcess = false;              // one of several processes without a controller
