@@ -7,12 +7,14 @@
 #include "Core/Options.h"
 #include "Core/Report.h"
 
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
 namespace isopoint
 {
+
+/// The standard error of rounding to integers: 1 / sqrt(12).
+constexpr double roundingError = 0.2886751345948129;
 
 /// Properties of a cloud's positions and values. A cloud of several arrays, or on several ranks,
 /// has a property if all of them have it.
@@ -56,8 +58,7 @@ void loadOrReplace(const Execution& execution, ProcessGroup* processes,
   types.areFloatPositions ? (types.areFloatValues ? load(0.0f, 0.0f) : load(0.0f, 0.0))
                           : (types.areFloatValues ? load(0.0, 0.0f) : load(0.0, 0.0));
   execution.progress(1.0);
-  // The standard error of rounding to integers.
-  extractor.setValueError(types.areIntegers ? 1.0 / std::sqrt(12.0) : 0.0);
+  extractor.setValueError(types.areIntegers ? roundingError : 0.0);
 }
 
 /// Extracts all isovalues of a report from the loaded samples, and counts in the report. Throws as

@@ -24,6 +24,11 @@
 namespace isopoint
 {
 
+// See Core/Probe.h.
+struct Neighborhoods;
+struct ProbedArray;
+struct ProbeOptions;
+
 /// The samples of one layout, and data kept between extractions.
 template <class TSample>
 struct SampleCloud
@@ -153,6 +158,24 @@ public:
   /// @throws std::bad_alloc, Aborted, TreeTooLarge (see NarrowBand); later calls still work
   ExtractedIsosurface extract(const Execution& execution, const ExtractionRequest& request,
     ExtractedIsosurface* ghosts = nullptr);
+
+  /// Interpolates arrays of the samples at places, and their gradients (docs/algorithm.md, section
+  /// 13). Loaded values take no part. On ranks collective: each has its own places, and the arrays'
+  /// numbers of its own items. The same result on any number of ranks.
+  /// @param kinds null, or receives PlaceKinds for each place
+  /// @throws std::bad_alloc, Aborted, std::length_error (see NarrowBand); later calls still work
+  void probe(const Execution& execution, const std::vector<Vector>& places,
+    const ProbeOptions& options, const std::vector<ProbedArray>& arrays,
+    std::uint8_t* kinds = nullptr);
+
+  /// The samples around places, for any number of arrays. Collective; throws as probe().
+  Neighborhoods findNeighborhoods(
+    const Execution& execution, const std::vector<Vector>& places, const ProbeOptions& options);
+
+  /// Interpolates arrays of the samples at the places of neighborhoods. Collective; throws as
+  /// probe().
+  void probe(const Execution& execution, const Neighborhoods& neighborhoods,
+    const std::vector<ProbedArray>& arrays);
 
 private:
   template <class TSample, class Reader>

@@ -4,6 +4,7 @@
 #include "Core/Base/Threads.h"
 #include "Core/Contour.h"
 #include "Core/Failure.h"
+#include "Library/Probe.h"
 #include "Library/RunningCall.h"
 #include "Library/SampleReader.h"
 #include "Library/Surface.h"
@@ -252,6 +253,7 @@ struct isopoint_extractor
   isopoint::CloudCounts Counts;
   std::string Name;         // of the values
   bool HasSamples = false;  // even if all are skipped
+  bool HasValues = false;
   std::int32_t Threads = 0; // 0: all cores
   Callbacks Calls;
 
@@ -259,7 +261,7 @@ struct isopoint_extractor
   {
     this->Extractor.clear();
     this->Counts = {};
-    this->HasSamples = false;
+    this->HasSamples = this->HasValues = false;
   }
 
   isopoint::Execution makeExecution() const
@@ -269,6 +271,20 @@ struct isopoint_extractor
     return execution;
   }
 };
+
+namespace
+{
+
+/// @throws UsageError
+void requireSamples(const isopoint_extractor& extractor)
+{
+  if (!extractor.HasSamples)
+  {
+    throw UsageError("The extractor has no samples. Call isopoint_set_samples() first.");
+  }
+}
+
+} // namespace
 
 void isopoint_initialize_options(isopoint_options* options, size_t size)
 {
@@ -339,6 +355,7 @@ isopoint_status isopoint_set_samples(isopoint_extractor* extractor, const isopoi
       extractor->Types = types;
       extractor->Counts = read.counts();
       extractor->HasSamples = true;
+      extractor->HasValues = values != nullptr;
     });
   if (status != ISOPOINT_OK && extractor)
   {
@@ -363,12 +380,90 @@ void isopoint_get_value_range(const isopoint_extractor* extractor, double range[
   {
     return;
   }
-  const bool hasSamples = extractor && extractor->Extractor.sampleCount() > 0;
+  const bool hasSamples =
+    extractor && extractor->HasValues && extractor->Extractor.sampleCount() > 0;
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   const auto [least, greatest] =
     hasSamples ? extractor->Extractor.valueRange() : std::make_pair(nothing, nothing);
   range[0] = least;
   range[1] = greatest;
+}
+
+void isopoint_initialize_probe_options(isopoint_probe_options* options, size_t size)
+{
+  isopoint_probe_options all{};
+  all.size = size;
+  all.outside_number = isopoint::ProbeOptions().outsideNumber;
+  if (options)
+  {
+    std::memcpy(options, &all, std::min(size, sizeof(all)));
+  }
+}
+
+isopoint_status isopoint_probe(isopoint_extractor* extractor, const isopoint_array* places,
+  const isopoint_array* arrays, int64_t array_count, const isopoint_probe_options* options,
+  const isopoint_probed* results, uint8_t* kinds)
+{
+  return runOn(extractor, "extractor",
+    [&]()
+    {
+      requireSamples(*extractor);
+      const std::vector<isopoint::Vector> all = isopoint::placesFrom(places);
+      const isopoint::ProbeOptions chosen = isopoint::probeOptionsFrom(options);
+      const auto probed =
+        isopoint::probedArrays(arrays, array_count, results, extractor->Counts.items, chosen);
+      extractor->Extractor.probe(extractor->makeExecution(), all, chosen, probed, kinds);
+    });
+}
+
+isopoint_status isopoint_find_neighborhoods(isopoint_extractor* extractor,
+  const isopoint_array* places, const isopoint_probe_options* options,
+  isopoint_neighborhoods** neighborhoods)
+{
+  return runOn(extractor, "extractor",
+    [&]()
+    {
+      require(neighborhoods, "place for the neighborhoods");
+      requireSamples(*extractor);
+      const isopoint::Execution execution = extractor->makeExecution();
+      *neighborhoods = new isopoint_neighborhoods{ execution,
+        extractor->Extractor.findNeighborhoods(
+          execution, isopoint::placesFrom(places), isopoint::probeOptionsFrom(options)),
+        static_cast<std::size_t>(extractor->Counts.items) };
+    });
+}
+
+isopoint_status isopoint_probe_neighborhoods(const isopoint_neighborhoods* neighborhoods,
+  const isopoint_array* arrays, int64_t array_count, const isopoint_probed* results, uint8_t* kinds)
+{
+  return runOn(neighborhoods, "neighborhoods",
+    [&]()
+    {
+      const isopoint::Neighborhoods& found = neighborhoods->found;
+      isopoint::probeNeighborhoods(neighborhoods->execution, found,
+        isopoint::probedArrays(
+          arrays, array_count, results, neighborhoods->sampleCount, found.options));
+      if (kinds)
+      {
+        std::copy(found.kinds.begin(), found.kinds.end(), kinds);
+      }
+    });
+}
+
+isopoint_status isopoint_get_weights(
+  isopoint_neighborhoods* neighborhoods, isopoint_weights* weights)
+{
+  return runOn(neighborhoods, "neighborhoods",
+    [&]()
+    {
+      require(weights, "place for the weights");
+      *weights = neighborhoods->weights();
+    });
+}
+
+void isopoint_destroy_neighborhoods(isopoint_neighborhoods* neighborhoods)
+{
+  destroy(neighborhoods);
 }
 
 isopoint_status isopoint_extract(isopoint_extractor* extractor, const double* isovalues,
@@ -384,9 +479,10 @@ isopoint_status isopoint_extract(isopoint_extractor* extractor, const double* is
         throw UsageError("There are not " + std::to_string(count) +
                          " isovalues. Pass as many as their count says, up to 2^24.");
       }
-      if (!extractor->HasSamples)
+      requireSamples(*extractor);
+      if (!extractor->HasValues)
       {
-        throw UsageError("The extractor has no samples. Call isopoint_set_samples() first.");
+        throw UsageError("The samples have no values. Pass values to isopoint_set_samples().");
       }
       const isopoint::Options chosen = optionsFrom(options);
       isopoint::Report report(

@@ -16,15 +16,19 @@ namespace isopoint
 class SampleReader
 {
 public:
+  /// @param values null: all are 0
   /// @param excluded null, or bytes that are not 0 for samples to skip
   /// @throws UsageError if the arrays do not fit together
   SampleReader(
     const isopoint_array* positions, const isopoint_array* values, const isopoint_array* excluded)
     : Positions(positions, "positions")
-    , Values(values, "values")
   {
     this->Positions.require(this->Positions.count(), 3);
-    this->Values.require(this->Positions.count(), 1);
+    if (values)
+    {
+      this->Values.emplace(values, "values");
+      this->Values->require(this->Positions.count(), 1);
+    }
     if (!isFloatingPoint(this->Positions.type()))
     {
       throw UsageError("The array of positions holds integers. Pass float or double.");
@@ -45,7 +49,7 @@ public:
   SampleTypes types() const
   {
     SampleTypes types;
-    const std::int32_t type = this->Values.type();
+    const std::int32_t type = this->Values ? this->Values->type() : ISOPOINT_FLOAT;
     types.areFloatPositions = this->Positions.type() == ISOPOINT_FLOAT;
     types.areFloatValues = type == ISOPOINT_FLOAT || sizeOfType(type) <= 2;
     types.areIntegers = !isFloatingPoint(type);
@@ -74,7 +78,7 @@ public:
     {
       position[axis] = static_cast<TCoordinate>(this->Positions.at(id, axis));
     }
-    value = static_cast<TValue>(this->Values.at(id, 0));
+    value = static_cast<TValue>(this->Values ? this->Values->at(id, 0) : 0.0);
     return true;
   }
 
@@ -85,7 +89,7 @@ private:
   }
 
   ArrayReader Positions;
-  ArrayReader Values;
+  std::optional<ArrayReader> Values;
   std::optional<ArrayReader> Excluded;
 };
 

@@ -200,7 +200,8 @@ ISOPOINT_API isopoint_status isopoint_set_name(isopoint_extractor* extractor, co
  * integer types are taken as rounded: fits ignore details below 1 / sqrt(12). After an error the
  * extractor has no samples. O(n)
  * @param positions of type float or double, three components
- * @param values of any type, one component, as many as positions
+ * @param values of any type, one component, as many as positions; null if only isopoint_probe() is
+ * called
  * @param excluded null, or one ISOPOINT_UINT8 per sample; samples that are not 0 are skipped */
 ISOPOINT_API isopoint_status isopoint_set_samples(isopoint_extractor* extractor,
   const isopoint_array* positions, const isopoint_array* values, const isopoint_array* excluded);
@@ -211,6 +212,115 @@ ISOPOINT_API int64_t isopoint_get_skipped_count(const isopoint_extractor* extrac
 
 /* The range of the values of the samples used; NaN if there are none. */
 ISOPOINT_API void isopoint_get_value_range(const isopoint_extractor* extractor, double range[2]);
+
+/* -------------------------------------------------------------------------------- */
+/* Values at places */
+
+enum
+{
+  ISOPOINT_METHOD_BLEND = 0,     /* the mean of four fits, weighted by their estimated errors */
+  ISOPOINT_METHOD_CUBIC = 1,     /* a polynomial of degree three: linear in the values */
+  ISOPOINT_METHOD_QUADRATIC = 2, /* of degree two: linear in the values */
+  ISOPOINT_METHOD_AFFINE = 3,    /* of degree one: linear in the values, but no interpolation in cells */
+  ISOPOINT_METHOD_NEAREST = 4    /* the nearest sample */
+};
+
+enum
+{
+  ISOPOINT_OUTSIDE_NUMBER = 0,     /* a number */
+  ISOPOINT_OUTSIDE_NEAREST = 1,    /* the value of the nearest sample */
+  ISOPOINT_OUTSIDE_EXTRAPOLATE = 2 /* what the method gives: no place counts as outside */
+};
+
+/* How to probe places. isopoint_initialize_probe_options() sets `size` and all defaults. Later
+ * versions may append options but accept this size. */
+typedef struct isopoint_probe_options
+{
+  uint64_t size;         /* of this struct, in bytes */
+  int32_t method;        /* Default: BLEND */
+  int32_t outside;       /* what places outside the samples get. Default: NUMBER */
+  double outside_number; /* for NUMBER. Default: NaN */
+} isopoint_probe_options;
+
+/* Sets all options to their defaults. @param size sizeof(isopoint_probe_options) */
+ISOPOINT_API void isopoint_initialize_probe_options(isopoint_probe_options* options, size_t size);
+
+/* Memory for the results of one array. */
+typedef struct isopoint_probed
+{
+  /* One tuple per place, contiguous, with the components of the array: double, or the type of the
+   * array with NEAREST. */
+  void* values;
+  double* gradients; /* null, or three numbers for each component of each place; not with NEAREST */
+} isopoint_probed;
+
+enum
+{
+  ISOPOINT_PLACE_OUTSIDE = 1, /* of the samples */
+  ISOPOINT_PLACE_FLAT = 2     /* the samples around are in a plane, on a line or at one position */
+};
+
+/* Interpolates arrays at places: a fit to the nearest samples, its value and its gradient. Search
+ * and weights are computed once for all arrays. The values of isopoint_set_samples() take no part.
+ *
+ * A place is outside if all samples around are on one side of it, or if the nearest one is farther
+ * than 0.9 times the distance between this one and the eighth nearest to it. A place at a sample is
+ * inside. Where samples are flat, results are those at the nearest point of their plane or line, and
+ * gradients have no part across. A sample whose value is not finite does not exist for its array;
+ * one array then may be outside where others are not. Coincident samples count as one, with the
+ * mean value. BLEND fits all components of an array alike, so that turned vectors give turned
+ * results; its values leave the range of the samples around only at extrema that these show. Values
+ * of integer types are taken as rounded. Coordinates that are not finite give places outside.
+ * Outside, gradients are NaN for NUMBER and 0 for NEAREST, and integers of NEAREST are 0 if the
+ * number is not one of their type. Places may be in any order; those in the order of the tree are no
+ * faster. O(log n) for each place after O(n) for the first.
+ * @param places of type float or double, three components
+ * @param arrays `array_count` arrays, each of as many tuples as there were samples
+ * @param options null for the defaults
+ * @param results `array_count`, written on success; on failure their content is undefined
+ * @param kinds null, or receives for each place the sum of its ISOPOINT_PLACE_... */
+ISOPOINT_API isopoint_status isopoint_probe(isopoint_extractor* extractor,
+  const isopoint_array* places, const isopoint_array* arrays, int64_t array_count,
+  const isopoint_probe_options* options, const isopoint_probed* results, uint8_t* kinds);
+
+/* The samples around places, kept so that later arrays, such as those of other time steps, cost only
+ * the products with weights; with BLEND, the fits. Takes 0.3 kB a place with BLEND, up to 1.7 kB with
+ * other methods, and memory for all samples around. */
+typedef struct isopoint_neighborhoods isopoint_neighborhoods;
+
+/* Finds the samples around places. Parameters as isopoint_probe().
+ * @param neighborhoods receives an object, to be freed by isopoint_destroy_neighborhoods(). It
+ * remains valid if the extractor is destroyed or gets other samples */
+ISOPOINT_API isopoint_status isopoint_find_neighborhoods(isopoint_extractor* extractor,
+  const isopoint_array* places, const isopoint_probe_options* options,
+  isopoint_neighborhoods** neighborhoods);
+
+/* isopoint_probe() for the places of neighborhoods, with the same results. It uses the threads and
+ * callbacks that the extractor had when it found these. */
+ISOPOINT_API isopoint_status isopoint_probe_neighborhoods(
+  const isopoint_neighborhoods* neighborhoods, const isopoint_array* arrays, int64_t array_count,
+  const isopoint_probed* results, uint8_t* kinds);
+
+/* Weights of samples: a sparse matrix with a row for each place, in compressed rows. Its product
+ * with an array is the value at each place. Coincident samples share a weight. */
+typedef struct isopoint_weights
+{
+  int64_t row_count;
+  const int64_t* begins;          /* of the rows, and the end: row_count + 1 */
+  const int64_t* samples;         /* the sample of each entry */
+  const double* values;           /* the weight of each entry in the value */
+  const double* gradients;        /* three each: in the gradient */
+} isopoint_weights;
+
+/* The weights of neighborhoods, computed at the first call; not with BLEND, which is not linear in
+ * the values. Rows of places outside are empty with NUMBER, and have the nearest sample with
+ * NEAREST. Samples whose value is not finite have weights, too. Its memory is valid until the
+ * neighborhoods are destroyed. */
+ISOPOINT_API isopoint_status isopoint_get_weights(
+  isopoint_neighborhoods* neighborhoods, isopoint_weights* weights);
+
+/* Frees neighborhoods. Null is ignored. */
+ISOPOINT_API void isopoint_destroy_neighborhoods(isopoint_neighborhoods* neighborhoods);
 
 /* -------------------------------------------------------------------------------- */
 /* Surfaces. Their calls use the threads and callbacks that the extractor had when it made them,

@@ -199,55 +199,32 @@ private:
   double Sums[size][size][size];
 };
 
-/// The normal equations of the weighted least-squares polynomial of a degree, and their Cholesky
-/// factor L, whose leading blocks are those of lower degrees.
+/// The Cholesky factor L of the normal equations of weighted least-squares polynomials, which
+/// depends on positions and weights alone. Its leading blocks are those of lower degrees. A
+/// coefficient that the samples do not determine is left out, as if it were 0.
 template <int Degree>
-class NormalEquations
+class CholeskyFactor
 {
 public:
   static constexpr std::size_t size = coefficientCount(Degree);
 
   /// O(samples)
-  NormalEquations(const FrameSamples& samples, const FrameWeights& weights)
+  CholeskyFactor(const FrameSamples& samples, const FrameWeights& weights)
   {
-    const Moments<2 * Degree> moments(samples, weights);
-    SampleNumbers weightedValues;
-    const std::size_t groups = samples.groupCount();
-    for (std::size_t i = 0; i < groups; ++i)
-    {
-      weightedValues.setGroup(i, weights.group(i) * samples.value.group(i));
-    }
-    const Moments<Degree> ofValues(samples, weightedValues);
-    this->factor(moments, std::make_index_sequence<size>());
-    for (std::size_t i = 0; i < size; ++i)
-    {
-      const auto [a, b, c] = exponentsOf(i);
-      this->RightSide[i] = ofValues.at(a, b, c);
-    }
+    this->factor(Moments<2 * Degree>(samples, weights), std::make_index_sequence<size>());
   }
 
   /// The highest degree whose coefficients the samples determine; 0 if none.
   int determinedDegree() const { return this->Determined; }
 
-  /// The least-squares polynomial. @param degree up to determinedDegree()
-  Polynomial solution(int degree) const
+  /// The share of a coefficient's diagonal element that former coefficients leave: 0 to 1.
+  double pivotShare(std::size_t i) const
   {
-    const std::size_t count = coefficientCount(degree);
-    Polynomial polynomial;
-    polynomial.degree = degree;
-    auto& x = polynomial.coefficients;
-    std::copy_n(this->RightSide.begin(), count, x.begin());
-    this->reduce(degree, x);
-    for (std::size_t i = count; i-- > 0;)
-    {
-      for (std::size_t j = i + 1; j < count; ++j)
-      {
-        x[i] -= this->below(i, j) * x[j];
-      }
-      x[i] *= this->Reciprocals[i];
-    }
-    return polynomial;
+    return this->Diagonal[i] > 0.0 ? this->Pivots[i] / this->Diagonal[i] : 0.0;
   }
+
+  double pivot(std::size_t i) const { return this->Pivots[i]; }
+  double diagonal(std::size_t i) const { return this->Diagonal[i]; }
 
   /// Replaces p by L^-1 p. p has the monomials at a place (or several, side by side), or is the
   /// unit vector of a coefficient. For two such vectors, u . v is the effect of a value of weight 1
@@ -264,6 +241,21 @@ public:
         rest -= this->below(j, i) * p[j];
       }
       p[i] = rest * this->Reciprocals[i];
+    }
+  }
+
+  /// Replaces p by L^-T p; after reduce(), by A^-1 p.
+  template <class Vectors>
+  void substituteBack(int degree, Vectors& p) const
+  {
+    const std::size_t count = coefficientCount(degree);
+    for (std::size_t i = count; i-- > 0;)
+    {
+      for (std::size_t j = i + 1; j < count; ++j)
+      {
+        p[i] -= this->below(i, j) * p[j];
+      }
+      p[i] *= this->Reciprocals[i];
     }
   }
 
@@ -291,15 +283,20 @@ private:
   template <std::size_t... Indices>
   void factor(const Moments<2 * Degree>& moments, std::index_sequence<Indices...>)
   {
-    this->Determined = 0;
-    // Stops at the first column that is not determined.
-    static_cast<void>(
-      (this->factorColumn<Indices>(moments, std::make_index_sequence<size>()) && ...));
+    (this->factorColumn<Indices>(moments, std::make_index_sequence<size>()), ...);
+    std::size_t determined = 0;
+    while (determined<size&& this->Reciprocals[determined]> 0.0)
+    {
+      ++determined;
+    }
+    for (int degree = 1; degree <= Degree; ++degree)
+    {
+      this->Determined = determined >= coefficientCount(degree) ? degree : this->Determined;
+    }
   }
 
-  /// @returns whether the samples determine the coefficient
   template <std::size_t Index, std::size_t... Rows>
-  bool factorColumn(const Moments<2 * Degree>& moments, std::index_sequence<Rows...>)
+  void factorColumn(const Moments<2 * Degree>& moments, std::index_sequence<Rows...>)
   {
     constexpr std::size_t first = Index / 2 * 2; // whole pairs
     alignas(16) Column rest;
@@ -314,9 +311,13 @@ private:
       }
     }
     const double pivot = rest[Index];
+    this->Diagonal[Index] = diagonal;
+    this->Pivots[Index] = pivot;
     if (!(pivot > minPivot * diagonal) || !std::isfinite(pivot))
     {
-      return false;
+      this->Reciprocals[Index] = 0.0;
+      this->Columns[Index].fill(0.0);
+      return;
     }
     this->Reciprocals[Index] = 1.0 / std::sqrt(pivot);
     for (std::size_t row = first; row < rest.size(); ++row)
@@ -327,17 +328,53 @@ private:
     {
       this->Columns[Index][row] = 0.0;
     }
-    for (int degree = 1; degree <= Degree; ++degree)
-    {
-      this->Determined = Index + 1 == coefficientCount(degree) ? degree : this->Determined;
-    }
-    return true;
   }
 
   alignas(16) std::array<Column, size> Columns; // of L, below the diagonal
-  std::array<double, size> Reciprocals;         // of the diagonal of L
-  std::array<double, size> RightSide;
+  std::array<double, size> Reciprocals;         // of the diagonal of L; 0 if left out
+  std::array<double, size> Diagonal;            // of the normal equations
+  std::array<double, size> Pivots;
   int Determined = 0;
+};
+
+/// The normal equations of the weighted least-squares polynomial of a degree.
+template <int Degree>
+class NormalEquations : public CholeskyFactor<Degree>
+{
+public:
+  using CholeskyFactor<Degree>::size;
+
+  /// O(samples)
+  NormalEquations(const FrameSamples& samples, const FrameWeights& weights)
+    : CholeskyFactor<Degree>(samples, weights)
+  {
+    SampleNumbers weightedValues;
+    const std::size_t groups = samples.groupCount();
+    for (std::size_t i = 0; i < groups; ++i)
+    {
+      weightedValues.setGroup(i, weights.group(i) * samples.value.group(i));
+    }
+    const Moments<Degree> ofValues(samples, weightedValues);
+    for (std::size_t i = 0; i < size; ++i)
+    {
+      const auto [a, b, c] = exponentsOf(i);
+      this->RightSide[i] = ofValues.at(a, b, c);
+    }
+  }
+
+  /// The least-squares polynomial. @param degree up to determinedDegree()
+  Polynomial solution(int degree) const
+  {
+    Polynomial polynomial;
+    polynomial.degree = degree;
+    std::copy_n(this->RightSide.begin(), coefficientCount(degree), polynomial.coefficients.begin());
+    this->reduce(degree, polynomial.coefficients);
+    this->substituteBack(degree, polynomial.coefficients);
+    return polynomial;
+  }
+
+private:
+  std::array<double, size> RightSide;
 };
 
 } // namespace isopoint

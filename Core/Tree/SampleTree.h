@@ -74,6 +74,7 @@ struct Node
   std::uint8_t axis; // of the plane, if split
   bool isLeaf;       // all its samples share one position
   bool isAbsent;     // another rank holds its samples; see MissingNode
+  bool isBucket;     // few samples, all at different positions: see splitToBuckets()
 
   /// Nodes that are neither split nor leaves may be split later.
   bool isSplit() const { return this->childPair != 0; }

@@ -9,18 +9,20 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace isopoint
 {
 
-/// Splits nodes further: small ones down to leaves, others by one treelet. The result is part of
-/// the canonical tree, whatever was split before.
+/// Splits nodes. The result is part of the canonical tree, whatever was split before.
 /// @param nodes node indices in any order, with repetitions; split nodes and leaves are skipped
+/// @param levelsOf(node) how many levels to split a node, at most
+/// @param split(nodeIndex) called after a node was split; from any thread
 /// @throws std::bad_alloc, Aborted, or TreeTooLarge (see NarrowBand)
-template <class TSample>
-void splitFurther(
-  const Execution& execution, SampleTree<TSample>& tree, std::vector<std::size_t> nodes)
+template <class TSample, class LevelsOf, class Split>
+void splitNodes(const Execution& execution, SampleTree<TSample>& tree,
+  std::vector<std::size_t> nodes, const LevelsOf& levelsOf, const Split& split)
 {
   struct Task
   {
@@ -29,7 +31,6 @@ void splitFurther(
     int levels;
     Region region;
   };
-  constexpr std::size_t small = 512;
   nodes = sortedUnique(execution, nodes, tree.nodes.size());
   std::vector<Task> tasks;
   std::size_t pairs = 0;
@@ -42,8 +43,7 @@ void splitFurther(
         return;
       }
       const Path path = pathToNode(tree, nodes[i]);
-      const int levels = std::min(maximumDepth - path.depth,
-        node.count() <= small ? levelsToHalve(small) + 1 : treeletLevels);
+      const int levels = std::min(maximumDepth - path.depth, levelsOf(node));
       if (levels == 0)
       {
         throwTooDeep();
@@ -52,6 +52,21 @@ void splitFurther(
       pairs += maximumTreeletPairs(node.count(), levels);
     });
   const std::size_t firstPair = appendPairs(tree, pairs);
+  // Few large nodes, such as the root, are split by all threads, one after the other.
+  constexpr std::size_t large = std::size_t{ 1 } << 18;
+  const auto isLarge = [&](const Task& task)
+  { return execution.threads > 1 && tree.nodes[task.node].count() >= large; };
+  const auto firstLarge =
+    std::partition(tasks.begin(), tasks.end(), [&](const Task& task) { return !isLarge(task); });
+  std::for_each(firstLarge, tasks.end(),
+    [&](const Task& task)
+    {
+      TreeletSplitter<TSample> splitter(tree, firstPair + task.firstPair);
+      splitter.splitTogether(
+        partOf(execution, 0.0, 0.0), tree.nodes[task.node], task.region, task.levels);
+      split(task.node);
+    });
+  tasks.erase(firstLarge, tasks.end());
   forBatches(execution, tasks.size(), 512, 4,
     [&](std::size_t begin, std::size_t end)
     {
@@ -60,8 +75,87 @@ void splitFurther(
       {
         splitter.moveTo(firstPair + tasks[i].firstPair);
         splitter.split(tree.nodes[tasks[i].node], tasks[i].region, tasks[i].levels);
+        split(tasks[i].node);
       }
     });
+}
+
+/// The most samples of a node that is split down to its end at once.
+constexpr std::size_t smallNode = 512;
+
+/// Splits nodes further: small ones down to leaves, others by one treelet. See splitNodes().
+template <class TSample>
+void splitFurther(
+  const Execution& execution, SampleTree<TSample>& tree, std::vector<std::size_t> nodes)
+{
+  splitNodes(
+    execution, tree, std::move(nodes),
+    [](const Node<TSample>& node)
+    { return node.count() <= smallNode ? levelsToHalve(smallNode) + 1 : treeletLevels; },
+    [](std::size_t) {});
+}
+
+/// The most samples of a bucket.
+constexpr std::size_t bucketSize = 8;
+
+/// Marks a node as a bucket if it is small and all its samples are at different positions.
+/// @returns whether it is one
+template <class TSample>
+bool markBucket(SampleTree<TSample>& tree, Node<TSample>& node)
+{
+  if (node.count() > bucketSize)
+  {
+    return false;
+  }
+  const TSample* const samples = tree.samples.data();
+  for (std::size_t i = node.begin; i < node.end; ++i)
+  {
+    const auto isAtSame = [&](const TSample& other) { return haveOnePosition(samples[i], other); };
+    if (std::any_of(samples + i + 1, samples + node.end, isAtSame))
+    {
+      return false;
+    }
+  }
+  node.isBucket = true;
+  return true;
+}
+
+/// Marks the buckets among the unsplit nodes at and below a node.
+template <class TSample>
+void markBuckets(SampleTree<TSample>& tree, std::size_t nodeIndex)
+{
+  Node<TSample>& node = tree.nodes[nodeIndex];
+  if (!node.isSplit())
+  {
+    markBucket(tree, node);
+    return;
+  }
+  markBuckets(tree, node.lowerNode());
+  markBuckets(tree, node.upperNode());
+}
+
+/// Splits nodes like splitFurther(), but only down to buckets or leaves: for searches that look at
+/// all samples of a bucket.
+template <class TSample>
+void splitToBuckets(
+  const Execution& execution, SampleTree<TSample>& tree, std::vector<std::size_t> nodes)
+{
+  keepUnique(nodes);
+  nodes.erase(std::remove_if(nodes.begin(), nodes.end(),
+                [&](std::size_t node) { return markBucket(tree, tree.nodes[node]); }),
+    nodes.end());
+  splitNodes(
+    execution, tree, std::move(nodes),
+    [](const Node<TSample>& node)
+    {
+      if (node.count() > smallNode)
+      {
+        return treeletLevels;
+      }
+      return node.count() > bucketSize ? levelsToHalve((node.count() + bucketSize - 1) / bucketSize)
+                                       : levelsToHalve(node.count()) + 1;
+    },
+    [&tree](std::size_t node) { markBuckets(tree, node); });
 }
 
 /// Splits unsplit nodes until none is found.

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Isosurfaces directly from scattered samples.
 
-contour() takes and returns NumPy arrays, or data sets of VTK and PyVista; Samples keeps the tree between
-isovalues. Both only need NumPy. With the project's VTK modules, the package also has their classes; with
-its ParaView plugin, load_plugin() and ray_trace().
+contour() takes and returns NumPy arrays, or data sets of VTK and PyVista; probe() and gradient() interpolate
+samples at places; Samples keeps the tree between calls. All only need NumPy. With the project's VTK modules, the
+package also has their classes; with its ParaView plugin, load_plugin() and ray_trace().
 """
 
 from __future__ import annotations
@@ -14,10 +14,13 @@ from typing import TYPE_CHECKING, Any
 
 from . import _library
 # Type checkers take only names imported as themselves for exported.
+from ._interpolator import Interpolator as Interpolator
 from ._isosurface import Isosurface as Isosurface
 from ._samples import Samples as Samples
 from .contouring import contour as contour
 from .plugin import load_plugin as load_plugin
+from .probing import gradient as gradient
+from .probing import probe as probe
 
 __version__ = _library.version().decode()
 
@@ -43,7 +46,7 @@ if TYPE_CHECKING:
 else:
     def __getattr__(name):
         if name == "__all__":
-            return ["Isosurface", "Samples", "contour", "load_plugin", *_found()]
+            return ["Interpolator", "Isosurface", "Samples", "contour", "gradient", "load_plugin", "probe", *_found()]
         if name not in _MODULES:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
         for module in map(_module, _MODULES[name]):

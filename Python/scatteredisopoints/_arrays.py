@@ -66,14 +66,14 @@ def readable(name: str, array: Any) -> np.ndarray:
     return result
 
 
-def positions_of(array: Any) -> np.ndarray:
+def positions_of(array: Any, name: str = "positions") -> np.ndarray:
     """Positions with shape (n, 3), float32 or float64."""
-    result = readable("positions", array)
+    result = readable(name, array)
     if result.ndim != 2 or result.shape[1] != 3:
-        remedy = ("pass positions.T" if result.ndim == 2 and len(result) == 3 else
-                  "for samples in a plane append zeros" if result.shape[1:] == (2,) else
+        remedy = (f"pass {name}.T" if result.ndim == 2 and len(result) == 3 else
+                  f"for {name} in a plane append zeros" if result.shape[1:] == (2,) else
                   "pass three coordinates of each")
-        raise ValueError(f"positions have the shape {result.shape}, not (n, 3): {remedy}")
+        raise ValueError(f"{name} have the shape {result.shape}, not (n, 3): {remedy}")
     return result if result.dtype.kind == "f" else result.astype(np.float64)
 
 
@@ -106,6 +106,19 @@ def column(name: str, array: Any, count: int, one_component: bool = False) -> np
         wanted = f"({count},)" if one_component else f"({count},) or ({count}, components)"
         raise ValueError(f"{name} have the shape {result.shape}, not {wanted}")
     return result
+
+
+def tensors(name: str, array: Any, count: int) -> np.ndarray:
+    """An array of the samples with any number of components, in shape (count, ...)."""
+    result = readable(name, array)
+    if result.ndim < 1 or len(result) != count or 0 in result.shape:
+        raise ValueError(f"{name} have the shape {result.shape}, not ({count},) or ({count}, components)")
+    return result
+
+
+def are_names(arrays: Any) -> bool:
+    """Whether several arrays are given by their names."""
+    return isinstance(arrays, (list, tuple)) and len(arrays) > 0 and all(isinstance(name, str) for name in arrays)
 
 
 def further_arrays(arrays: Optional[Mapping[str, Any]], count: int) -> dict[str, np.ndarray]:

@@ -8,7 +8,7 @@ points and cells are samples.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Iterator, Optional
+from typing import Any, Callable, Iterator, Optional, Sequence
 
 import numpy as np
 
@@ -28,13 +28,14 @@ class DataSamples:
     as_numpy()."""
 
     positions: Any
-    values: np.ndarray
+    values: Any  # None: without
     excluded: Optional[np.ndarray]  # bool; None without ghosts
     arrays: Optional[dict[str, Any]]  # None: the caller passes arrays for each isosurface
     maker: PolyDataMaker
     without_array: int = 0  # points or cells of blocks without the array
     masked: Optional[np.ndarray] = None  # bool: which values are masked; None without any
     name: str = ""  # of the values, for messages
+    association: int = POINT  # of the first block
     are_float: bool = True  # whether the values of all blocks are float32, and isovalues in the output too
 
 
@@ -97,7 +98,7 @@ def samples_of(
     Parameters
     ----------
     values
-        One number per position. Of a data object: the name of a point or cell array, one number per point
+        One number per position, or None. Of a data object: the name of a point or cell array, one number per point
         or cell of a data set, or None for the active array.
     associations
         POINT, CELL or both: where an array is looked for, in this order. None: a name at both, the active
@@ -108,36 +109,62 @@ def samples_of(
     data = data_object(source)
     if data is None:
         positions = positions_of(source)
-        numbers, masked = values_of(values, len(positions))
+        numbers, masked = (None, None) if values is None else values_of(values, len(positions))
         return DataSamples(positions, numbers, None, None, PolyDataMaker(scalars="values"), masked=masked)
+    are_given = not (values is None or isinstance(values, str))
+    if are_given and data.IsA("vtkCompositeDataSet"):
+        raise _needs_name(data)
+    if associations is None:
+        associations = (POINT,) if values is None else (POINT, CELL)
+
+    def block_of(leaf: Any) -> Optional[DataSamples]:
+        if are_given:
+            association, numbers, masked = given_values(data, values)
+            block = _block(leaf, association, numbers)
+            block.masked = masked
+            return block
+        found = _find(leaf, values, associations, attribute)
+        return None if found is None else _block(leaf, *found)
+
+    return _gathered(data, block_of, values, associations)
+
+
+def samples_with(data: Any, names: Sequence[str], associations: tuple[int, ...]) -> DataSamples:
+    """The samples of a data object without values, at the points or cells with arrays of all these names."""
+
+    def block_of(leaf: Any) -> Optional[DataSamples]:
+        for association in associations:
+            count = leaf.GetNumberOfElements(association)
+            found = {name for name, array, _ in named_arrays(leaf.GetAttributes(association))
+                     if array.GetNumberOfTuples() == count}
+            if found.issuperset(names) and (found or len(associations) == 1):
+                return _block(leaf, association, None)
+        return None
+
+    return _gathered(data, block_of, '" and "'.join(names) or None, associations)
+
+
+def _gathered(data: Any, block_of: Callable[[Any], Optional[DataSamples]], name: Optional[str],
+              associations: tuple[int, ...]) -> DataSamples:
+    """The samples of all blocks for which there are some; the name is that of the arrays wanted."""
     if not (data.IsA("vtkDataSet") or data.IsA("vtkCompositeDataSet")):
         remedy = ("convert it to points first" if data.IsA("vtkTable") else
                   "apply vtkHyperTreeGridCellCenters first" if data.IsA("vtkHyperTreeGrid") else
                   "convert it to a data set first")
         raise TypeError(f"A {data.GetClassName()} has no samples: {remedy}.")
-    are_given = not (values is None or isinstance(values, str))
-    if are_given and not data.IsA("vtkDataSet"):
-        raise _needs_name(data)
-    if associations is None:
-        associations = (POINT,) if values is None else (POINT, CELL)
     blocks, lacking, without_array = [], None, 0
     for leaf in leaves(data):
         size = max(leaf.GetNumberOfPoints(), leaf.GetNumberOfCells()) if leaf.IsA("vtkDataSet") else 0
         if size == 0:
             continue
-        if are_given:
-            association, numbers, masked = given_values(data, values)
-            blocks.append(_block(leaf, association, numbers))
-            blocks[-1].masked = masked
-            continue
-        found = _find(leaf, values, associations, attribute)
-        if found is not None:
-            blocks.append(_block(leaf, *found))
+        block = block_of(leaf)
+        if block is not None:
+            blocks.append(block)
         else:
             without_array += size
             lacking = leaf if lacking is None else lacking
     if not blocks:
-        raise _no_samples(values, associations, lacking, without_array)
+        raise _no_samples(name, associations, lacking, without_array)
     samples = blocks[0] if len(blocks) == 1 else _joined(blocks)
     samples.without_array = without_array
     samples.maker.scalars = samples.maker.scalars or "values"
@@ -153,15 +180,19 @@ def _needs_name(data: Any) -> TypeError:
 
 def given_values(data: Any, values: Any) -> tuple[int, np.ndarray, Optional[np.ndarray]]:
     """Whether values that are given as an array are of points or of cells; and what values_of() returns."""
+    association = association_of(data, np.shape(values))
+    return (association, *values_of(values, data.GetNumberOfElements(association)))
+
+
+def association_of(data: Any, shape: tuple[int, ...]) -> int:
+    """Whether an array of this shape is of points or of cells."""
     if not hasattr(data, "GetCellData"):
         raise _needs_name(data)
-    shape = np.shape(values)
     points, cells = (data.GetNumberOfElements(association) for association in (POINT, CELL))
-    if len(shape) == 1 and shape[0] not in (points, cells):
-        raise ValueError(f"{shape[0]} values for a data set of {points} points and {cells} cells: there"
-                         " is to be one for each")
-    is_of_cells = shape[:1] == (cells,) and cells != points
-    return (int(is_of_cells), *values_of(values, cells if is_of_cells else points))
+    if len(shape) > 0 and shape[0] not in (points, cells):
+        given = f"{shape[0]} values" if len(shape) == 1 else f"values of the shape {shape}"
+        raise ValueError(f"{given} for a data set of {points} points and {cells} cells: there is to be one for each")
+    return CELL if shape[:1] == (cells,) and cells != points else POINT
 
 
 def _find(leaf: Any, name: Optional[str], associations: tuple[int, ...], attribute: int
@@ -217,7 +248,7 @@ def _choice_of(leaf: Any) -> str:
 
 def _block(leaf: Any, association: int, scalars: Any) -> DataSamples:
     name, count = "values", leaf.GetNumberOfElements(association)
-    if not isinstance(scalars, np.ndarray):
+    if not (scalars is None or isinstance(scalars, np.ndarray)):
         name = scalars.GetName() or ""
         if not hasattr(scalars, "GetDataTypeSize") or not scalars.IsA("vtkDataArray"):
             raise TypeError(f'The array "{name}" holds no numbers. {_choice_of(leaf)}')
@@ -238,8 +269,8 @@ def _block(leaf: Any, association: int, scalars: Any) -> DataSamples:
             if use >= 0:
                 uses[key] = use
     maker = PolyDataMaker(scalars=name or None, uses=uses)
-    return DataSamples(positions, as_numpy(scalars), excluded, arrays, maker,
-                       name="" if isinstance(scalars, np.ndarray) else name)
+    return DataSamples(positions, scalars, excluded, arrays, maker, association=association,
+                       name="" if scalars is None or isinstance(scalars, np.ndarray) else name)
 
 
 def named_arrays(attributes: Any) -> Iterator[tuple[str, Any, int]]:
@@ -264,10 +295,11 @@ def _joined(blocks: list[DataSamples]) -> DataSamples:
     name = next(filter(None, (block.name for block in blocks)), "")
     excluded = [np.zeros(len(place), bool) if block.excluded is None else block.excluded
                 for block, place in zip(blocks, positions)]
-    return DataSamples(np.concatenate(positions), np.concatenate([block.values for block in blocks]),
+    values = [as_numpy(block.values) for block in blocks if block.values is not None]
+    return DataSamples(np.concatenate(positions), np.concatenate(values) if values else None,
                        np.concatenate(excluded), arrays,
                        PolyDataMaker(scalars=name or None, uses=uses), name=name,
-                       are_float=all(block.values.dtype == np.float32 for block in blocks))
+                       are_float=all(each.dtype == np.float32 for each in values))
 
 
 def point_positions(leaf: Any) -> Any:

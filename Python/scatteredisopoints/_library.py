@@ -24,6 +24,10 @@ from ._paths import LIBRARY
 # isopoint_type
 TYPES = tuple(np.dtype(kind) for kind in ("f4", "f8", "i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8"))
 
+# isopoint_probe_options::outside, and a bit of what isopoint_probe() says about a place
+OUTSIDE_NUMBER, OUTSIDE_NEAREST, OUTSIDE_EXTRAPOLATE = range(3)
+PLACE_FLAT = 2
+
 # isopoint_status
 OK, INVALID_ARGUMENT, OUT_OF_MEMORY, CANCELED, INTERNAL_ERROR = range(5)
 
@@ -54,6 +58,17 @@ class Numbers:
         return None if numbers is None else byref(Array.of(numbers))
 
 
+class ManyNumbers:
+    """The type of a parameter that is several arrays that the library reads, alive during the call."""
+
+    @staticmethod
+    def from_param(numbers: list[np.ndarray]) -> Any:
+        arrays = [Array.of(each) for each in numbers]
+        described = (Array * len(arrays))(*arrays)
+        described.arrays = arrays
+        return described
+
+
 class Memory:
     """The type of a parameter that the library writes: a contiguous array of NumPy, alive during the call."""
 
@@ -62,6 +77,36 @@ class Memory:
         if not (numbers.flags.c_contiguous and numbers.flags.writeable):
             raise ValueError("the memory for a result is not contiguous, or read-only")
         return numbers.ctypes
+
+
+class Probed(ctypes.Structure):
+    """isopoint_probed"""
+
+    _fields_ = [("values", c_void_p), ("gradients", POINTER(c_double))]
+
+
+class ProbedMemory:
+    """The type of a parameter with the memory for several arrays: pairs of values and of gradients or None."""
+
+    @staticmethod
+    def from_param(pairs: list[tuple[np.ndarray, Optional[np.ndarray]]]) -> Any:
+        described = (Probed * len(pairs))()
+        described.pairs = pairs
+        for each, (values, gradients) in zip(described, pairs):
+            each.values = Memory.from_param(values).data
+            if gradients is not None:
+                each.gradients = Memory.from_param(gradients).data_as(POINTER(c_double))
+        return described
+
+
+class ProbeOptions(ctypes.Structure):
+    """isopoint_probe_options, with the defaults"""
+
+    _fields_ = [("size", c_uint64), ("method", c_int32), ("outside", c_int32), ("outside_number", c_double)]
+
+    def __init__(self):
+        super().__init__()
+        initialize_probe_options(byref(self), ctypes.sizeof(self))
 
 
 class Options(ctypes.Structure):
@@ -107,6 +152,8 @@ set_samples = _declare("set_samples", c_void_p, Numbers, Numbers, Numbers)
 get_value_range = _declare("get_value_range", c_void_p, POINTER(2 * c_double), result=None)
 extract = _declare("extract", c_void_p, POINTER(c_double), c_int64, POINTER(Options),
                    POINTER(c_void_p))
+initialize_probe_options = _declare("initialize_probe_options", POINTER(ProbeOptions), c_size_t, result=None)
+probe = _declare("probe", c_void_p, Numbers, ManyNumbers, c_int64, POINTER(ProbeOptions), ProbedMemory, Memory)
 create_surface = _declare("create_surface", Numbers, Numbers, Numbers, Numbers, POINTER(c_void_p))
 destroy_surface = _declare("destroy_surface", c_void_p, result=None)
 set_surface_threads = _declare("set_surface_threads", c_void_p, c_int32)

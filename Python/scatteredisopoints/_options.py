@@ -6,17 +6,19 @@ from __future__ import annotations
 import difflib
 import operator
 import re
-from typing import Any, Mapping, Optional
+from typing import Any, Collection, Mapping, Optional
 
 import numpy as np
 
-from ._library import Options
+from . import _library
+from ._library import Options, ProbeOptions
 
 # Names of constants by option; their numbers are those of isopoint.h.
 CONSTANTS = {
     "projection": {"NO_PROJECTION": 0, "LINEAR_FIT": 1, "QUADRATIC_FIT": 2, "CUBIC_FIT": 3,
                    "CREASE_FIT": 4},
     "normal_method": {"AUTOMATIC_NORMALS": -1, "NORMALS_FROM_FIELD": 0, "NORMALS_FROM_PLANES": 1},
+    "method": {"BLEND": 0, "CUBIC": 1, "QUADRATIC": 2, "AFFINE": 3, "NEAREST": 4},
     "output_points_precision": {"SINGLE_PRECISION": 0, "DOUBLE_PRECISION": 1, "DEFAULT_PRECISION": 2},
 }
 
@@ -69,6 +71,22 @@ def make_options(triangles: bool, given: Mapping[str, Any]) -> Options:
     return options
 
 
+def make_probe_options(method: Any, outside: Any) -> ProbeOptions:
+    """Raises ValueError for invalid values."""
+    options = ProbeOptions()
+    is_number = isinstance(method, (int, np.integer)) and not isinstance(method, bool)
+    options.method = _number("method", method if is_number else constant("method", str(method)), options.method)
+    if outside is None:
+        options.outside = _library.OUTSIDE_EXTRAPOLATE
+    elif isinstance(outside, str) and outside.lower() == "nearest":
+        options.outside = _library.OUTSIDE_NEAREST
+    elif isinstance(outside, (float, int, np.floating, np.integer)) and not isinstance(outside, bool):
+        options.outside_number = outside
+    else:
+        raise ValueError(f'outside cannot be {outside!r}: it is a number, "nearest", or None for no mask')
+    return options
+
+
 def thread_count(threads: Optional[int]) -> int:
     """The library's number for at most so many threads; None: all available cores. Raises ValueError for fewer
     than one."""
@@ -79,6 +97,12 @@ def thread_count(threads: Optional[int]) -> int:
     return min(operator.index(threads), 2**31 - 1)
 
 
+def hint(name: str, names: Collection[str], further: Collection[str] = ()) -> str:
+    """The remedy for a name that is not among some: the nearest of these or of further ones, or all of these."""
+    near = difflib.get_close_matches(name, {*names, *further}, 1)
+    return f"did you mean {near[0]}?" if near else f"there are {', '.join(names)}"
+
+
 def _unknown_option(name: str, triangles: bool) -> TypeError:
     if name in option_names(not triangles):
         return TypeError(f"{name} is an option of {'points' if triangles else 'triangles'} only")
@@ -87,9 +111,7 @@ def _unknown_option(name: str, triangles: bool) -> TypeError:
         return TypeError(f"{name} is a property of the filters alone: {remedy}")
     names = option_names(triangles)
     snake = re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower()
-    near = difflib.get_close_matches(snake, {*names, *_PARAMETERS} - {name}, 1)
-    hint = f"did you mean {near[0]}?" if near else f"there are {', '.join(names)}"
-    return TypeError(f"unknown option {name}: {hint}")
+    return TypeError(f"unknown option {name}: {hint(snake, names, set(_PARAMETERS) - {name})}")
 
 
 def switch(name: str, value: Any) -> bool:

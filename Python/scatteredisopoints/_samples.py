@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Samples whose tree is kept between isovalues: see Samples."""
+"""Samples whose tree is kept between calls: see Samples."""
 
 from __future__ import annotations
 
 import contextlib
+import math
 import threading
 import warnings
 import weakref
@@ -15,9 +16,10 @@ import numpy as np
 
 from . import _datasets, _library
 from ._arrays import (
-    as_numpy, describe_masked, further_arrays, isovalues_of, positions_of, readable, values_of)
+    are_names, as_numpy, describe_masked, further_arrays, isovalues_of, positions_of, readable, tensors, values_of)
+from ._interpolator import Interpolator
 from ._isosurface import Isosurface
-from ._options import make_options, thread_count
+from ._options import CONSTANTS, hint, make_options, make_probe_options, switch, thread_count
 from ._progress import Progress, shown_progress
 
 
@@ -37,7 +39,7 @@ class Extracted:
 
 
 class Samples:
-    """Scattered samples with a tree that is kept between isovalues and time steps.
+    """Scattered samples with a tree that is kept between isovalues, places and time steps.
 
     Several threads may use one object: their calls take turns. Objects do not wait for each other.
     Positions and arrays must not be changed while the object is in use.
@@ -47,7 +49,8 @@ class Samples:
     positions
         As in :func:`contour`.
     values
-        As in :func:`contour`.
+        As in :func:`contour`; None: without values, for :meth:`probe`. A sample whose value is not finite takes no
+        part in any call.
     threads
         Maximum number of threads; None: all available cores.
     progress
@@ -91,6 +94,7 @@ class Samples:
         """Frees the samples and their tree."""
         self._extractor = _library.Extractor(_library.create_extractor())
         self._is_loaded = False
+        self._values: Any = None
 
     def _renew_lock(self) -> None:
         self._lock = threading.RLock()
@@ -102,13 +106,16 @@ class Samples:
         self._count = len(as_numpy(samples.positions))
         self._arrays, self._maker = samples.arrays, samples.maker
         self._without_array, self._name = samples.without_array, samples.name
-        self._load(readable("values", samples.values), samples.masked, samples.are_float, **callbacks)
+        self._association = samples.association
+        self._load(samples.values, samples.masked, samples.are_float, **callbacks)
 
     def __len__(self) -> int:
         """The number of samples, including skipped ones."""
         return self._count
 
     def __repr__(self) -> str:
+        if self._values is None:
+            return f"<Samples: {len(self)}, without values>"
         least, greatest = self.range
         return f"<Samples: {len(self)}, values from {least:g} to {greatest:g}>"
 
@@ -150,27 +157,34 @@ class Samples:
             finally:
                 self._is_in_call = False
 
-    def _load(self, values: np.ndarray, masked: Optional[np.ndarray], are_float: bool = True,
+    def _load(self, values: Any, masked: Optional[np.ndarray], are_float: bool = True,
               **callbacks: Any) -> None:
         if self._count == 0:
             raise ValueError("There are no samples: the input has no points.")
         positions = positions_of(self._current("positions", self._positions))
+        numbers = None if values is None else readable("values", as_numpy(values))
         left_out = [each for each in (self._excluded, masked) if each is not None]
         most_threads = thread_count(self._threads)
         with self._exclusive():
             self._is_loaded = False
-            self._masked = masked
+            self._values, self._masked = values, masked
             _library.run(_library.set_threads, self._extractor, most_threads)
             _library.run(_library.set_name, self._extractor, self._name.encode(errors="replace"))
             _library.run_with(
-                _library.Callbacks(**callbacks), self._extractor, _library.set_samples, positions, values,
+                _library.Callbacks(**callbacks), self._extractor, _library.set_samples, positions, numbers,
                 np.any(left_out, axis=0).view(np.uint8) if left_out else None)
             range_ = (2 * c_double)()
             _library.get_value_range(self._extractor, byref(range_))
             self._range = range_[0], range_[1]
             self._skipped = _library.get_skipped_count(self._extractor)
-            self._value_type = np.float32 if are_float and values.dtype == np.float32 else np.float64
+            is_float = numbers is not None and numbers.dtype == np.float32
+            self._value_type = np.float32 if are_float and is_float else np.float64
             self._is_loaded = True
+
+    def _require_samples(self) -> None:
+        if not self._is_loaded:
+            raise ValueError("The samples have no values, since replacing them failed or was interrupted, or"
+                             " keep_tree was False: call replace_values().")
 
     def _current(self, name: str, array: Any) -> np.ndarray:
         """The current array of the samples: those of data sets may have been reallocated."""
@@ -219,9 +233,9 @@ class Samples:
         most_threads = thread_count(threads)
         pointer = c_void_p()
         with self._exclusive():
-            if not self._is_loaded:
-                raise ValueError("The samples have no values, since replacing them failed or was interrupted, or"
-                                 " keep_tree was False: call replace_values().")
+            self._require_samples()
+            if self._values is None:
+                raise ValueError("The samples were made without values: call replace_values().")
             _library.run(_library.set_threads, self._extractor, most_threads)
             try:
                 _library.run_with(
@@ -252,6 +266,101 @@ class Samples:
             for name in computed if name in found]
         found.update(computed)
         return Extracted(self._as_isosurface(surface, found, chosen, threads), surface, messages)
+
+    def probe(
+        self,
+        places: Any,
+        arrays: Any = None,
+        *,
+        gradient: bool = False,
+        method: str = "BLEND",
+        outside: Union[float, str, None] = math.nan,
+        threads: Optional[int] = None,
+        progress: Progress = None,
+    ) -> Any:
+        """Interpolates arrays of the samples at places: :func:`probe` describes parameters, result and errors.
+
+        Parameters
+        ----------
+        arrays
+            One per sample, or names of arrays of the data set that the samples were made of. None: the values of
+            the samples. A mapping of names to arrays, or a list of names, gives a dict.
+        threads
+            None stands for the number that the object was made with.
+        """
+        return self._probe(places, arrays, gradient, method, outside, threads, progress, stacklevel=3)
+
+    def interpolator(
+        self,
+        array: Any = None,
+        *,
+        method: str = "BLEND",
+        outside: Union[float, str, None] = math.nan,
+        threads: Optional[int] = None,
+    ) -> Interpolator:
+        """A function of places, called as the interpolators of SciPy are. Parameters are those of :meth:`probe`."""
+        if isinstance(array, Mapping) or are_names(array):
+            raise TypeError("an interpolator has one array: make one for each")
+        self._numbers_of(array)
+        make_probe_options(method, outside)
+        return Interpolator(self, array, dict(method=method, outside=outside, threads=threads, progress=None))
+
+    def _probe(self, places, arrays, gradient, method, outside, threads, progress, stacklevel) -> Any:
+        chosen, with_gradients = make_probe_options(method, outside), switch("gradient", gradient)
+        is_nearest = chosen.method == CONSTANTS["method"]["NEAREST"]
+        if with_gradients and is_nearest:
+            raise ValueError("the method NEAREST has no gradients: use another one")
+        are_many = isinstance(arrays, Mapping) or are_names(arrays)
+        many = arrays if isinstance(arrays, Mapping) else dict(zip(arrays, arrays)) if are_many else {"values": arrays}
+        numbers = {name: self._numbers_of(array, str(name)) for name, array in many.items()}
+        data = _datasets.data_object(places)
+        points = positions_of(places if data is None else as_numpy(_datasets.point_positions(data)), "places")
+        values, gradients = {}, {}
+        for name, array in numbers.items():
+            shape = len(points), *array.shape[1:]
+            values[name] = np.empty(shape, array.dtype if is_nearest else np.float64)
+            gradients[name] = np.empty((*shape, 3)) if with_gradients else None
+        kinds = np.empty(len(points), np.uint8)
+        most_threads = thread_count(self._threads if threads is None else threads)
+        with shown_progress(progress, "Probing") as report, self._exclusive():
+            self._require_samples()
+            _library.run(_library.set_threads, self._extractor, most_threads)
+            _library.run_with(
+                _library.Callbacks(report), self._extractor, _library.probe, points,
+                [array.reshape(len(array), -1) for array in numbers.values()], len(numbers), byref(chosen),
+                list(zip(values.values(), gradients.values())), kinds)
+        for text in self._describe_probe(kinds):
+            warnings.warn(text, RuntimeWarning, stacklevel=stacklevel)
+        found = (values, gradients) if are_many else (values["values"], gradients["values"])
+        return found if with_gradients else found[0]
+
+    def _describe_probe(self, kinds: np.ndarray) -> Iterator[str]:
+        """Messages about places of these kinds."""
+        skipped = self._skipped - (0 if self._excluded is None else np.count_nonzero(self._excluded))
+        if skipped > 0:
+            yield f"{skipped} of {len(self)} samples are left out: their position or value is not finite, or masked."
+        flat = np.count_nonzero(kinds & _library.PLACE_FLAT)
+        if flat > 0:
+            yield (f"At {flat} of {len(kinds)} places the samples around are in a plane or on a line: values are those"
+                   " at the nearest point of it, and gradients have no part across.")
+        if self._without_array:
+            yield _datasets.describe_without_array(self._without_array, self._name).text
+
+    def _numbers_of(self, array: Any, name: str = "values") -> np.ndarray:
+        """The numbers of an array, of a name of one, or the values for None."""
+        if array is None:
+            self._require_samples()
+            if self._values is None:
+                raise TypeError("arrays are missing: the samples were made without values")
+            array = self._values
+        elif isinstance(array, str):
+            known = {**(self._arrays or {}), **({self._name: self._values} if self._name else {})}
+            if array not in known:
+                raise ValueError(f'the samples have no array "{array}": ' + (
+                    hint(array, known) if known else "give its numbers, for they are of no data set with arrays"))
+            name, array = array, known[array]
+        is_of_vtk = hasattr(array, "GetDataType") and not isinstance(array, np.ndarray)
+        return tensors(name, self._current(name, array) if is_of_vtk else array, len(self))
 
     def _interpolated(self, surface, of_samples: Mapping[str, Any]) -> dict[str, np.ndarray]:
         edges = _library.view(surface, _library.EDGES)

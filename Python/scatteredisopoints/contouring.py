@@ -89,6 +89,8 @@ def contour(
     True
     """
     data = data_object(positions)
+    if data is None and values is None:
+        raise TypeError("values are missing: one for each position")
     controller = options.get("controller")
     if controller is not None or (threads is None and data is not None and package_of(data) == "vtkmodules"):
         filters = compiled_filters()

@@ -116,6 +116,14 @@ inline clouds::Cloud concatenated(const std::vector<clouds::Cloud>& pieces)
   return all;
 }
 
+/// The number of samples on lower ranks.
+inline std::size_t firstOf(const std::vector<clouds::Cloud>& pieces, std::size_t rank)
+{
+  const auto end = pieces.begin() + static_cast<std::ptrdiff_t>(rank);
+  return std::accumulate(pieces.begin(), end, std::size_t{ 0 },
+    [](std::size_t sum, const clouds::Cloud& piece) { return sum + piece.size(); });
+}
+
 /// The points that are counted, and the triangles, of several ranks: each kind ordered.
 inline std::pair<Description, Description> contentsOf(const std::vector<Extracted>& ranks)
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Ranks together yield what one rank yields, however a cloud is dealt out.
+#include "PlaceTesting.h"
 #include "RankTesting.h"
 
 namespace
@@ -287,6 +288,52 @@ TEST(Ranks, HaveGhostTrianglesInRings)
       ASSERT_EQ(described.size(), own.size() + withGhosts.ghostTriangles);
       EXPECT_TRUE(std::equal(own.begin(), own.end(), described.begin()));
       EXPECT_TRUE(std::set<std::string>(described.begin(), described.end()) == inside);
+    }
+  }
+}
+
+TEST(Ranks, PlacesHaveTheValuesOfOneRank)
+{
+  for (const Cloud& cloud : { clouds::uniform(3000, 1), clouds::clustered(2000, 2),
+         clouds::coincident(clouds::uniform(1200, 4), 0.4), clouds::lattice(12, 12, 12),
+         clouds::flattened(clouds::uniform(900, 9), 2), clouds::uniform(5, 3), Cloud() })
+  {
+    const std::vector<places::Vector> all = places::randomPlaces(cloud, 200, -0.5, 1.5, 7);
+    for (const std::size_t size : { 2, 3, 5 })
+    {
+      for (const Deal deal : { Deal::Even, Deal::RoundRobin, Deal::Last, Deal::Spatial })
+      {
+        const std::vector<Cloud> pieces = ranks::dealOut(cloud, size, deal);
+        const Cloud whole = ranks::concatenated(pieces);
+        for (const places::PlaceMethod method : places::allMethods)
+        {
+          SCOPED_TRACE(testing::Message() << size << " ranks, method " << int(method));
+          const places::ProbeOptions options{ method, places::OutsideStrategy::Nearest, 0.0 };
+          const places::Probed expected =
+            places::probe(whole, all, options, places::variousArrays(whole));
+          std::vector<places::Probed> found(size);
+          ranks::onRanks(size,
+            [&](isopoint::ProcessGroup& processes, std::size_t rank)
+            {
+              isopoint::IsosurfaceExtractor extractor;
+              extractor.load<double, double>(
+                {}, processes, pieces[rank].size(), clouds::readerOf(pieces[rank]));
+              // Each rank asks for some of the places; the last one for none, if there are others.
+              std::vector<places::Vector> own;
+              for (std::size_t i = rank; i < all.size() && rank + 1 < size; i += size - 1)
+              {
+                own.push_back(all[i]);
+              }
+              found[rank] = places::probe(extractor, own, options,
+                places::slice(
+                  places::variousArrays(whole), ranks::firstOf(pieces, rank), pieces[rank].size()));
+            });
+          for (std::size_t i = 0; i < all.size(); ++i)
+          {
+            ASSERT_EQ(found[i % (size - 1)].at(i / (size - 1)).bytes(), expected.at(i).bytes());
+          }
+        }
+      }
     }
   }
 }

@@ -840,6 +840,177 @@ TEST(Library, ABugLeavesNoSamplesAndItsWholeDescription)
   expectInvalid(extract(), "isopoint_set_samples()");
 }
 
+namespace
+{
+
+isopoint_probe_options probeOptions(
+  std::int32_t method, std::int32_t outside = ISOPOINT_OUTSIDE_NUMBER, double number = NAN)
+{
+  isopoint_probe_options options;
+  isopoint_initialize_probe_options(&options, sizeof(options));
+  EXPECT_EQ(options.method, ISOPOINT_METHOD_BLEND);
+  EXPECT_TRUE(std::isnan(options.outside_number));
+  options.method = method;
+  options.outside = outside;
+  options.outside_number = number;
+  return options;
+}
+
+/// The positions of a cloud without values.
+void loadPositions(const Extractor& extractor, const Cloud& cloud)
+{
+  const isopoint_array positions = cloud.positionArray();
+  EXPECT_EQ(isopoint_set_samples(extractor.get(), &positions, nullptr, nullptr), ISOPOINT_OK);
+}
+
+} // namespace
+
+TEST(Library, ArraysAreInterpolatedAtPlacesAndAgainFromNeighborhoods)
+{
+  const Cloud cloud;
+  const Extractor extractor;
+  loadPositions(extractor, cloud);
+  const std::vector<float> at{ 0.5f, 0.25f, 0.5f, -0.25f, 0.5f, 0.125f, 9.0f, 9.0f, 9.0f };
+  isopoint_array places = arrayOf(at, ISOPOINT_FLOAT, 3);
+  std::vector<float> vectors;
+  for (std::size_t i = 0; i < cloud.values.size(); ++i)
+  {
+    const auto value = static_cast<float>(cloud.values[i]);
+    vectors.insert(vectors.end(), { value, -2.0f * value });
+  }
+  const std::array<isopoint_array, 2> arrays{ cloud.valueArray(),
+    arrayOf(vectors, ISOPOINT_FLOAT, 2) };
+  for (const std::int32_t method : { ISOPOINT_METHOD_BLEND, ISOPOINT_METHOD_CUBIC })
+  {
+    const isopoint_probe_options options = probeOptions(method);
+    std::array<double, 3> values{};
+    std::array<double, 9> gradients{};
+    std::array<double, 6> components{};
+    std::array<std::uint8_t, 3> kinds{};
+    const std::array<isopoint_probed, 2> results{ isopoint_probed{
+                                                    values.data(), gradients.data() },
+      isopoint_probed{ components.data(), nullptr } };
+    ASSERT_EQ(isopoint_probe(
+                extractor.get(), &places, arrays.data(), 2, &options, results.data(), kinds.data()),
+      ISOPOINT_OK)
+      << isopoint_get_error();
+    EXPECT_NEAR(values[0], 0.75, 1e-3);
+    EXPECT_NEAR(gradients[0], 0.5 / 0.75, 1e-2);
+    EXPECT_NEAR(components[1], -1.5, 2e-3);
+    EXPECT_TRUE(std::isnan(values[2]) && std::isnan(gradients[6]) && std::isnan(components[5]));
+    EXPECT_EQ(kinds, (std::array<std::uint8_t, 3>{ 0, 0, ISOPOINT_PLACE_OUTSIDE }));
+
+    isopoint_neighborhoods* neighborhoods = nullptr;
+    ASSERT_EQ(
+      isopoint_find_neighborhoods(extractor.get(), &places, &options, &neighborhoods), ISOPOINT_OK);
+    std::array<double, 3> again{};
+    const isopoint_probed result{ again.data(), nullptr };
+    ASSERT_EQ(
+      isopoint_probe_neighborhoods(neighborhoods, arrays.data(), 1, &result, nullptr), ISOPOINT_OK);
+    EXPECT_EQ(again[0], values[0]);
+    EXPECT_EQ(again[1], values[1]);
+    isopoint_weights weights;
+    if (method == ISOPOINT_METHOD_BLEND)
+    {
+      expectInvalid(isopoint_get_weights(neighborhoods, &weights), "not linear");
+    }
+    else
+    {
+      ASSERT_EQ(isopoint_get_weights(neighborhoods, &weights), ISOPOINT_OK);
+      ASSERT_EQ(weights.row_count, 3);
+      EXPECT_EQ(weights.begins[3], weights.begins[2]);
+      for (std::size_t row = 0; row < 2; ++row)
+      {
+        double value = 0.0;
+        double slope = 0.0;
+        for (std::int64_t i = weights.begins[row]; i < weights.begins[row + 1]; ++i)
+        {
+          const double number = cloud.values[static_cast<std::size_t>(weights.samples[i])];
+          value += weights.values[i] * number;
+          slope += weights.gradients[3 * i] * number;
+        }
+        EXPECT_NEAR(value, values[row], 1e-12);
+        EXPECT_NEAR(slope, gradients[3 * row], 1e-10);
+      }
+    }
+    isopoint_destroy_neighborhoods(neighborhoods);
+  }
+}
+
+TEST(Library, TheNearestSampleKeepsItsType)
+{
+  const Cloud cloud;
+  const Extractor extractor;
+  loadPositions(extractor, cloud);
+  std::vector<std::int64_t> numbers;
+  for (std::size_t i = 0; i < cloud.values.size(); ++i)
+  {
+    numbers.push_back((std::int64_t{ 1 } << 60) + static_cast<std::int64_t>(i));
+  }
+  const std::vector<double> at{ cloud.positions[21], cloud.positions[22], cloud.positions[23], 9.0,
+    9.0, 9.0 };
+  const isopoint_array places = arrayOf(at, ISOPOINT_DOUBLE, 3);
+  const isopoint_array array = arrayOf(numbers, ISOPOINT_INT64, 1);
+  const auto found = [&](std::int32_t outside, double number)
+  {
+    std::vector<std::int64_t> values(2, -1);
+    const isopoint_probe_options options = probeOptions(ISOPOINT_METHOD_NEAREST, outside, number);
+    const isopoint_probed result{ values.data(), nullptr };
+    EXPECT_EQ(
+      isopoint_probe(extractor.get(), &places, &array, 1, &options, &result, nullptr), ISOPOINT_OK);
+    EXPECT_EQ(values[0], numbers[7]);
+    return values[1];
+  };
+  EXPECT_EQ(found(ISOPOINT_OUTSIDE_NUMBER, NAN), 0);
+  EXPECT_EQ(found(ISOPOINT_OUTSIDE_NUMBER, -5.0), -5);
+  EXPECT_EQ(found(ISOPOINT_OUTSIDE_NUMBER, 1e30), 0);
+  EXPECT_GE(found(ISOPOINT_OUTSIDE_NEAREST, NAN), numbers[0]);
+  EXPECT_GE(found(ISOPOINT_OUTSIDE_EXTRAPOLATE, NAN), numbers[0]);
+}
+
+TEST(Library, InvalidProbesAreErrors)
+{
+  const Cloud cloud(100);
+  const Extractor extractor;
+  const isopoint_array array = cloud.valueArray();
+  const isopoint_array places = cloud.positionArray();
+  std::vector<double> numbers(300);
+  const isopoint_probed result{ numbers.data(), nullptr };
+  const auto probe = [&](const isopoint_array& of, const isopoint_array& where,
+                       const isopoint_probed& to, const isopoint_probe_options& options)
+  { return isopoint_probe(extractor.get(), &where, &of, 1, &options, &to, nullptr); };
+  const isopoint_probe_options usual = probeOptions(ISOPOINT_METHOD_BLEND);
+  expectInvalid(probe(array, places, result, usual), "no samples");
+  loadPositions(extractor, cloud);
+  EXPECT_EQ(probe(array, places, result, usual), ISOPOINT_OK);
+  expectInvalid(probe(places, array, result, usual), "places");
+  isopoint_array few = array;
+  few.count = 99;
+  expectInvalid(probe(few, places, result, usual), "Pass 100 of 1");
+  expectInvalid(probe(array, places, { nullptr, nullptr }, usual), "memory");
+  expectInvalid(probe(array, places, result, probeOptions(5)), "method");
+  expectInvalid(probe(array, places, result, probeOptions(0, 3)), "outside");
+  expectInvalid(
+    probe(array, places, { numbers.data(), numbers.data() }, probeOptions(ISOPOINT_METHOD_NEAREST)),
+    "NEAREST");
+  isopoint_probe_options unset = usual;
+  unset.size = 1;
+  expectInvalid(probe(array, places, result, unset), "isopoint_initialize_probe_options");
+  expectInvalid(
+    isopoint_probe(extractor.get(), &places, nullptr, 1, nullptr, &result, nullptr), "arrays");
+  isopoint_surface* surface = nullptr;
+  const double isovalue = 0.5;
+  expectInvalid(
+    isopoint_extract(extractor.get(), &isovalue, 1, nullptr, &surface), "have no values");
+  Observed observed;
+  observed.cancelAfter = 0;
+  isopoint_set_callbacks(extractor.get(), observe, isCanceled, &observed);
+  EXPECT_EQ(probe(array, places, result, usual), ISOPOINT_CANCELED);
+  EXPECT_EQ(probe(array, places, result, usual), ISOPOINT_OK);
+  EXPECT_TRUE(std::is_sorted(observed.fractions.begin(), observed.fractions.end()));
+  EXPECT_EQ(observed.fractions.back(), 1.0);
+}
+
 TEST(Library, SurfacesOutliveTheirExtractor)
 {
   const Cloud cloud;

@@ -24,7 +24,8 @@ from unittest import mock
 
 import numpy as np
 import scatteredisopoints
-from scatteredisopoints import Isosurface, Samples, _library, _options, contour, contouring
+from scatteredisopoints import (
+    Interpolator, Isosurface, Samples, _library, _options, contour, contouring, gradient, probe)
 
 HEADER = pathlib.Path(__file__).parents[2] / "Library/isopoint.h"
 
@@ -44,7 +45,8 @@ def contents(surface: Isosurface):
 class Signatures(unittest.TestCase):
     """The declarations of _library are those of the header."""
 
-    C_TYPES = {"int32_t": ctypes.c_int32, "int64_t": ctypes.c_int64, "uint64_t": ctypes.c_uint64,
+    C_TYPES = {"void*": ctypes.c_void_p, "double*": ctypes.POINTER(ctypes.c_double),
+               "int32_t": ctypes.c_int32, "int64_t": ctypes.c_int64, "uint64_t": ctypes.c_uint64,
                "double": ctypes.c_double, "const void*": ctypes.c_void_p}
 
     @classmethod
@@ -56,7 +58,9 @@ class Signatures(unittest.TestCase):
         return [(name, self.C_TYPES[kind.strip()]) for kind, name in re.findall(r"([\w *]+?\*?) (\w+);", body)]
 
     def test_structs(self):
-        for struct, mirror in (("isopoint_array", _library.Array), ("isopoint_options", _library.Options)):
+        for struct, mirror in (("isopoint_array", _library.Array), ("isopoint_options", _library.Options),
+                               ("isopoint_probe_options", _library.ProbeOptions),
+                               ("isopoint_probed", _library.Probed)):
             self.assertEqual(self.members(struct), list(mirror._fields_))
 
     def test_ids_of_arrays(self):
@@ -71,9 +75,12 @@ class Signatures(unittest.TestCase):
                  "PRECISION_INPUT": "DEFAULT_PRECISION"}
         found = {}
         for name, number in re.findall(
-                r"ISOPOINT_((?:PROJECTION_(?!ORDERS)|NORMALS_|PRECISION_)\w+) = (-?\d+)", self.text):
-            own = re.sub(r"^PROJECTION_(.*)", r"\1_FIT", re.sub(r"^PRECISION_(.*)", r"\1_PRECISION", name))
+                r"ISOPOINT_((?:PROJECTION_(?!ORDERS)|NORMALS_|PRECISION_|METHOD_)\w+) = (-?\d+)", self.text):
+            own = re.sub(r"^PROJECTION_(.*)", r"\1_FIT", re.sub(
+                r"^PRECISION_(.*)", r"\1_PRECISION", re.sub("^METHOD_", "", name)))
             found[names.get(name, own)] = int(number)
+        for name, number in re.findall(r"ISOPOINT_((?:OUTSIDE|PLACE)_\w+) = (\d+)", self.text):
+            self.assertEqual(getattr(_library, name, int(number)), int(number))
         ours = {name: number for constants in _options.CONSTANTS.values() for name, number in constants.items()}
         self.assertEqual(found, ours)
 
@@ -267,7 +274,9 @@ class Results(unittest.TestCase):
         outputs = [each.__name__ for each in declared if ctypes.POINTER(_library.Array) in (each.argtypes or ())]
         self.assertEqual(outputs, ["isopoint_get_array"])
         inputs = [each.__name__ for each in declared if _library.Numbers in (each.argtypes or ())]
-        self.assertEqual(len(inputs), 4)
+        self.assertEqual(len(inputs), 5)
+        self.assertIs(_library.ManyNumbers.from_param([numbers]).arrays[0].numbers, numbers)
+        self.assertIs(_library.ProbedMemory.from_param([(numbers, None)]).pairs[0][0], numbers)
 
     def test_surfaces_without_splats(self):
         positions, values = cloud()
@@ -351,12 +360,12 @@ class Results(unittest.TestCase):
         self.assertLess(len(str(caught.warning)), 500)
 
     def test_docstrings(self):
-        for owner in (contouring, scatteredisopoints._samples):
+        for owner in (contouring, scatteredisopoints.probing, scatteredisopoints._samples):
             self.assertEqual(doctest.testmod(owner).failed, 0)
         for triangles in (False, True):
             for name in _options.option_names(triangles):
                 self.assertIn(name + "=", contour.__doc__)
-        for owner in (contour, Samples, Isosurface, scatteredisopoints.load_plugin):
+        for owner in (contour, probe, gradient, Samples, Isosurface, Interpolator, scatteredisopoints.load_plugin):
             self.assertNotRegex(pydoc.render_doc(owner), r"docs/|\.md\b")  # which the wheel lacks
 
 
@@ -666,7 +675,8 @@ class Imports(unittest.TestCase):
     def test_names(self):
         self.assertRegex(scatteredisopoints.__version__, r"^\d+\.\d+\.\d+$")
         names = set(scatteredisopoints.__all__)
-        self.assertLessEqual({"contour", "Samples", "Isosurface", "load_plugin"}, names)
+        self.assertLessEqual({"contour", "probe", "gradient", "Samples", "Interpolator", "Isosurface", "load_plugin"},
+                             names)
         self.assertLessEqual(names, set(dir(scatteredisopoints)))
         imported = {}
         exec("from scatteredisopoints import *", imported)

@@ -5,10 +5,11 @@ import gc
 import unittest
 import warnings
 import weakref
+from unittest import mock
 
 import numpy as np
 import pyvista as pv
-from scatteredisopoints import _pyvista, contour
+from scatteredisopoints import Samples, _pyvista, contour, gradient, probe
 
 
 def cloud(count=20000):
@@ -206,6 +207,138 @@ class Accessor(unittest.TestCase):
         points[0] = 7.0
         self.assertEqual(surface.polydata.points[0].tolist(), [7.0, 7.0, 7.0])
         self.assertGreater(surface.splats().polydata.n_cells, 1000)
+
+
+class Probing(unittest.TestCase):
+    """Values at places; affine fields are exact."""
+
+    @staticmethod
+    def plane(places):
+        return places @ [1.0, 2.0, 3.0]
+
+    def cloud(self):
+        data = cloud(5000)
+        data.clear_data()
+        data["plane"], data["place"] = self.plane(data.points), data.points
+        data["number"] = np.arange(5000, dtype=np.int32)
+        data.GetPointData().SetPedigreeIds(pv.convert_array(np.arange(5000), "ids"))  # no numbers to interpolate
+        return data
+
+    def test_points_and_data_sets(self):
+        data, inside = self.cloud(), np.random.default_rng(2).uniform(0.2, 0.8, (50, 3))
+        image = pv.ImageData(dimensions=(3, 4, 5), spacing=(0.1, 0.1, 0.1), origin=(0.3, 0.3, 0.3))
+        image["own"] = np.arange(60)
+        for where, kind in ((inside, pv.PolyData), (inside.tolist(), pv.PolyData), (image, pv.ImageData)):
+            found = data.scattered.probe(where, outside=None)
+            self.assertIs(type(found), kind)
+            np.testing.assert_allclose(found["plane"], self.plane(found.points), atol=1e-6)
+            np.testing.assert_allclose(found["place"], found.points, atol=1e-6)
+            self.assertEqual(set(found.array_names) - {"own"}, {"plane", "place", "number"})
+        self.assertIn("own", found.array_names)
+        self.assertEqual(image.array_names, ["own"])
+        found = data.scattered.probe(inside, ["place", "plane"], gradient=True, outside=None)
+        np.testing.assert_allclose(found["place_gradient"], np.tile(np.eye(3).ravel(), (50, 1)), atol=1e-5)
+        np.testing.assert_allclose(found["plane_gradient"], np.tile([1, 2, 3], (50, 1)), atol=1e-5)
+        np.testing.assert_array_equal(data.scattered.probe(inside, data["plane"])["values"],
+                                      data.scattered.probe(inside, "plane")["plane"])
+        self.assertEqual(data.scattered.probe(inside, "number", method="NEAREST")["number"].dtype, np.int32)
+        self.assertTrue(np.isnan(data.scattered.probe([[9, 9, 9]], "plane")["plane"][0]))
+        self.assertEqual(data.scattered.probe(np.zeros((0, 3)), gradient=True).n_points, 0)
+        np.testing.assert_array_equal(probe(data, "plane", image), data.scattered.probe(image, "plane")["plane"])
+        self.assertEqual(gradient(data, ["place"])["place"].shape, (5000, 3, 3))
+        self.assertAlmostEqual(float(Samples(data, "plane").interpolator("place")(0.4, 0.5, 0.6)[2]), 0.6, places=6)
+
+    def test_cells_ghosts_and_composites(self):
+        data = grid()
+        data.cell_data["plane"] = self.plane(data.cell_centers().points)
+        data["plane"] = -self.plane(data.points)
+        where = data.center + np.random.default_rng(2).uniform(-0.5, 0.5, (50, 3))
+        for preference, factor in (("cell", 1), ("point", -1)):
+            found = data.scattered.probe(where, "plane", preference=preference)
+            np.testing.assert_allclose(found["plane"], factor * self.plane(where))
+        self.assertEqual(set(data.scattered.probe(where, preference="cell").array_names), {"of cells", "plane"})
+        blocks = pv.MultiBlock([data.extract_subset((0, 15, 0, 30, 0, 31)), data.extract_subset((15, 29, 0, 30, 0, 31)),
+                                cloud(10)])
+        with warnings.catch_warnings(record=True) as caught:  # assertWarns() imports what cvista lacks
+            warnings.simplefilter("always")
+            found = blocks.scattered.probe(where, "plane")
+        self.assertEqual([(each.filename, str(each.message)[:33]) for each in caught],
+                         [(__file__, "10 points or cells are left out: ")])
+        np.testing.assert_allclose(found["plane"], -self.plane(where))
+        hidden = data.points[:, 0] > data.center[0] + 0.1
+        data.point_data["plane"][hidden] = 1e9
+        data.point_data["vtkGhostType"] = np.where(hidden, 2, 0).astype(np.uint8)
+        found = data.scattered.probe(where - np.array([0.45, 0, 0]), "plane")
+        np.testing.assert_allclose(found["plane"], -self.plane(found.points), rtol=1e-6)
+
+    def test_lines_and_grids(self):
+        data = self.cloud()
+        line = data.scattered.sample_over_line((0.2, 0.3, 0.4), (0.7, 0.6, 0.5), 100, "plane", outside=None)
+        self.assertEqual(line.n_points, 101)
+        self.assertAlmostEqual(line["Distance"].max(), 0.35**0.5, places=6)
+        np.testing.assert_allclose(line["plane"], self.plane(line.points), atol=1e-6)
+        bounds, box = (0.2, 0.8, 0.2, 0.8, 0.5, 0.5), np.reshape(data.bounds, (3, 2))
+        for arguments, dimensions, spacing in (
+                (dict(dimensions=11), (11, 11, 11), np.ptp(box, axis=1) / 10),
+                (dict(dimensions=(3, 4, 1)), (3, 4, 1), (np.ptp(box[0]) / 2, np.ptp(box[1]) / 3, 1)),
+                (dict(dimensions=7, bounds=bounds), (7, 7, 1), (0.1, 0.1, 1)),
+                (dict(spacing=0.1, bounds=bounds), (7, 7, 1), (0.1, 0.1, 0.1)),
+                (dict(spacing=(0.25, 0.2, 9), bounds=bounds), (4, 4, 1), (0.25, 0.2, 9))):
+            found = data.scattered.to_grid(**arguments, scalars="plane")
+            self.assertEqual(found.dimensions, dimensions)
+            np.testing.assert_allclose(found.spacing, spacing, rtol=1e-6)
+            inside = np.isfinite(found["plane"])
+            self.assertGreater(inside.mean(), 0.25)
+            np.testing.assert_allclose(found["plane"][inside], self.plane(found.points[inside]), atol=1e-6)
+        self.assertAlmostEqual(data.scattered.to_grid((3, 4, 1), scalars="plane").origin[2], box[2].mean(), places=6)
+        for arguments, error in (({}, TypeError), (dict(dimensions=3, spacing=1), TypeError),
+                                 (dict(spacing=0), ValueError), (dict(dimensions=1.5), ValueError),
+                                 (dict(spacing="a"), ValueError), (dict(dimensions=(1, 2)), ValueError),
+                                 (dict(dimensions=3, methods="CUBIC"), TypeError),
+                                 (dict(dimensions=3, bounds=(1, 0, 0, 1, 0, 1)), ValueError)):
+            with self.assertRaisesRegex(error, "dimensions|spacing|bounds|did you mean method?"):
+                data.scattered.to_grid(**arguments)
+
+    def test_derivatives_are_those_of_vtk(self):
+        """VTK's central differences are exact for fields of degree two on a grid, inside."""
+        data = grid()
+        x, y, z = (data.points - data.center).T
+        data["flow"] = np.stack([y * z, x * x, x * y + z], axis=1)
+        chosen = dict(divergence=True, vorticity="spin", qcriterion=True)
+        expected = data.compute_derivative("flow", **chosen)
+        found = data.scattered.compute_derivative("flow", method="QUADRATIC", **chosen)
+        inside = (np.abs(data.points - data.center) < 0.7).all(axis=1)
+        for name in ("gradient", "divergence", "spin", "qcriterion"):
+            self.assertEqual(found[name].shape, expected[name].shape)
+            np.testing.assert_allclose(found[name][inside], expected[name][inside], atol=1e-9)
+        self.assertNotIn("gradient", data.array_names)
+        of_cells = data.scattered.compute_derivative("of cells", gradient="slope")
+        self.assertEqual(of_cells.cell_data["slope"].shape, (data.n_cells, 3))
+        with self.assertRaisesRegex(ValueError, "divergence need an array of three components"):
+            data.scattered.compute_derivative("distance", divergence=True)
+
+    def test_samples_are_kept(self):
+        data, inside = self.cloud(), [[0.5, 0.5, 0.5]]
+        with mock.patch.object(Samples, "_load", autospec=True, side_effect=Samples._load) as load:
+            for _ in range(2):
+                self.assertAlmostEqual(data.scattered.probe(inside, "plane")["plane"][0], 3, places=5)
+            self.assertEqual(load.call_count, 1)
+            data["plane"] = 2 * data["plane"]
+            self.assertAlmostEqual(data.scattered.probe(inside, "plane")["plane"][0], 6, places=5)
+            self.assertGreater(data.scattered.contour([6], "plane").n_points, 100)
+
+    def test_wrong_choices(self):
+        data = self.cloud()
+        for call, error, text in (
+                (lambda: data.scattered.probe([[0, 0, 0]], "plan"), ValueError, 'named "plan".*plane'),
+                (lambda: data.scattered.probe([[0, 0, 0]], "plane", preference="both"), ValueError, "preference"),
+                (lambda: data.scattered.probe([[0, 0, 0]], np.zeros(7)), ValueError, "7 values for a data set"),
+                (lambda: data.scattered.probe(pv.MultiBlock([data])), TypeError, "pass its blocks"),
+                (lambda: data.scattered.compute_derivative(["plane"]), TypeError, "one array"),
+                (lambda: pv.Table({"a": np.ones(1)}).scattered.probe([[0, 0, 0]]), TypeError, "has no samples"),
+                (lambda: pv.PolyData().scattered.probe([[0, 0, 0]]), ValueError, "no points")):
+            with self.subTest(text), self.assertRaisesRegex(error, text):
+                call()
 
 
 if __name__ == "__main__":

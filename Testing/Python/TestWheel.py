@@ -135,7 +135,7 @@ def run_examples(environment, language):
 def check_types(environment):
     """Type checkers accept the documents' blocks and all names of the package, and find wrong names."""
     names = environment.run(
-        "-c", "import scatteredisopoints as s; print(*s._MODULES, 'Samples', 'load_plugin')").split()
+        "-c", "import scatteredisopoints as s; print(*s._MODULES, 'Interpolator', 'Samples', 'load_plugin')").split()
     imports = f"from scatteredisopoints import {', '.join(names)}\n"
     wrong = ("from scatteredisopoints import contuor\n",
              "from scatteredisopoints import contour\ncontour([], [], 0.3).colors\n")
@@ -182,6 +182,7 @@ def main(folder, wheel=None):
         check_results(environment, expected)
         if version in (min(pythons), max(pythons)):
             environment.run(TESTS / "TestPackage.py")
+            environment.run(TESTS / "TestProbe.py")
         print(environment.describe() + ": the same bytes")
 
     newest = max(version for version in pythons if version >= (3, 10))

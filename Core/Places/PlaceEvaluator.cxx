@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Core/Places/PlaceEvaluator.h"
+
+#include "Core/Tree/CoincidentSamples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace isopoint
+{
+namespace
+{
+
+bool hasGradients(const std::vector<ProbedArray>& arrays)
+{
+  return std::any_of(
+    arrays.begin(), arrays.end(), [](const ProbedArray& array) { return array.gradients; });
+}
+
+} // namespace
+
+void Surroundings::setReach(std::size_t most, double next)
+{
+  constexpr double beyond = 1.1; // the farthest of all samples counts, too
+  this->fitted = std::min(most, this->offsets.size());
+  this->reach = next >= 0.0 || this->offsets.empty()
+                  ? next
+                  : beyond * lengthOf(this->offsets[this->fitted - 1]);
+}
+
+std::size_t neededCount(const ProbeOptions& options)
+{
+  const std::size_t fitted = fittedCount(options.method);
+  return options.outside == OutsideStrategy::Extrapolate ? fitted
+                                                         : std::max(fitted, countForOutside);
+}
+
+PlaceEvaluator::PlaceEvaluator(const ProbeOptions& options, const std::vector<ProbedArray>& arrays)
+  : Options(options)
+  , Arrays(arrays)
+  , Fitter(options.method, hasGradients(arrays))
+  , OwnFitter(options.method, hasGradients(arrays))
+{
+}
+
+std::uint8_t PlaceEvaluator::enter(const Surroundings& around)
+{
+  this->IsPrepared = false;
+  if (around.offsets.empty())
+  {
+    return PlaceOutside;
+  }
+  this->Fitter.enter(around.offsets, around.fitted, around.reach);
+  const bool isOutside =
+    this->Options.outside != OutsideStrategy::Extrapolate && this->Fitter.isOutside();
+  return static_cast<std::uint8_t>(
+    (isOutside ? PlaceOutside : 0) | (this->Fitter.isFlat() ? PlaceFlat : 0));
+}
+
+void PlaceEvaluator::writeWeights(const Surroundings& around, double* weights)
+{
+  if (around.fitted == 0)
+  {
+    return;
+  }
+  this->Fitter.prepare();
+  for (std::size_t i = 0; i < around.fitted; ++i)
+  {
+    for (std::size_t k = 0; k < laneCount; ++k)
+    {
+      weights[laneCount * i + k] = this->Fitter.weights(k)[i];
+    }
+  }
+}
+
+void PlaceEvaluator::evaluate(std::size_t place, const Surroundings& around, std::uint8_t kinds)
+{
+  const bool isOutside = (kinds & PlaceOutside) != 0;
+  for (const ProbedArray& array : this->Arrays)
+  {
+    if (around.offsets.empty())
+    {
+      this->writeNothing(array, place);
+    }
+    else if (array.take)
+    {
+      this->take(array, place, around, isOutside);
+    }
+    else if (!this->read(array, around))
+    {
+      this->evaluateOwn(array, place, around);
+    }
+    else if (isOutside)
+    {
+      this->writeOutside(array, place);
+    }
+    else
+    {
+      if (!this->IsPrepared)
+      {
+        this->Fitter.prepare();
+        this->IsPrepared = true;
+      }
+      this->apply(array, place, this->Fitter);
+    }
+  }
+}
+
+void PlaceEvaluator::evaluateAgain(
+  std::size_t place, const Surroundings& around, std::uint8_t kinds, const double* weights)
+{
+  if (weights)
+  {
+    this->Fitter.prepareFrom(weights, around.fitted);
+    this->IsPrepared = true;
+  }
+  else
+  {
+    this->enter(around);
+  }
+  this->evaluate(place, around, kinds);
+}
+
+/// Reads the values of an array. @returns whether all are finite
+bool PlaceEvaluator::read(const ProbedArray& array, const Surroundings& around)
+{
+  this->Values.resize(static_cast<std::size_t>(array.components));
+  bool areFinite = true;
+  for (std::size_t c = 0; c < this->Values.size(); ++c)
+  {
+    SampleNumbers& values = this->Values[c];
+    const std::size_t count = around.size();
+    if (around.haveOneIdEach())
+    {
+      array.read(around.ids.data(), count, static_cast<int>(c), &values[0]);
+    }
+    else
+    {
+      this->Numbers.resize(around.ids.size());
+      array.read(around.ids.data(), around.ids.size(), static_cast<int>(c), this->Numbers.data());
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        const auto first = this->Numbers.begin() + static_cast<std::ptrdiff_t>(around.idBegins[i]);
+        const auto last = std::remove_if(first,
+          this->Numbers.begin() + static_cast<std::ptrdiff_t>(around.idBegins[i + 1]),
+          [](double number) { return !std::isfinite(number); });
+        values[i] = first == last
+                      ? std::numeric_limits<double>::quiet_NaN()
+                      : meanOf(static_cast<std::size_t>(last - first),
+                          [&](std::size_t k) { return first[static_cast<std::ptrdiff_t>(k)]; });
+      }
+    }
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      areFinite = areFinite && std::isfinite(values[i]);
+    }
+  }
+  return areFinite;
+}
+
+/// An array that lacks values of some samples is evaluated as if these did not exist.
+void PlaceEvaluator::evaluateOwn(
+  const ProbedArray& array, std::size_t place, const Surroundings& around)
+{
+  this->Own.clear();
+  std::size_t fitted = 0;
+  for (std::size_t i = 0; i < around.size(); ++i)
+  {
+    if (std::all_of(this->Values.begin(), this->Values.end(),
+          [i](const SampleNumbers& values) { return std::isfinite(values[i]); }))
+    {
+      for (SampleNumbers& values : this->Values)
+      {
+        values[this->Own.size()] = values[i];
+      }
+      this->Own.offsets.push_back(around.offsets[i]);
+      fitted += i < around.fitted ? 1 : 0;
+    }
+  }
+  if (fitted == 0)
+  {
+    this->writeNothing(array, place);
+    return;
+  }
+  this->OwnFitter.enter(this->Own.offsets, fitted, around.reach);
+  if (this->Options.outside != OutsideStrategy::Extrapolate && this->OwnFitter.isOutside())
+  {
+    this->writeOutside(array, place);
+    return;
+  }
+  this->OwnFitter.prepare();
+  this->apply(array, place, this->OwnFitter);
+}
+
+void PlaceEvaluator::apply(const ProbedArray& array, std::size_t place, PlaceFitter& fitter)
+{
+  const auto components = static_cast<std::size_t>(array.components);
+  fitter.apply(this->Values, array.valueError, array.values + components * place,
+    array.gradients ? array.gradients + 3 * components * place : nullptr);
+}
+
+void PlaceEvaluator::writeOutside(const ProbedArray& array, std::size_t place) const
+{
+  if (this->Options.outside == OutsideStrategy::Number)
+  {
+    this->writeNothing(array, place);
+    return;
+  }
+  const auto components = static_cast<std::size_t>(array.components);
+  for (std::size_t c = 0; c < components; ++c)
+  {
+    array.values[components * place + c] = this->Values[c][0];
+  }
+  if (array.gradients)
+  {
+    std::fill_n(array.gradients + 3 * components * place, 3 * components, 0.0);
+  }
+}
+
+void PlaceEvaluator::writeNothing(const ProbedArray& array, std::size_t place) const
+{
+  if (array.take)
+  {
+    array.take(place, nullptr);
+    return;
+  }
+  const auto components = static_cast<std::size_t>(array.components);
+  std::fill_n(array.values + components * place, components, this->Options.outsideNumber);
+  if (array.gradients)
+  {
+    std::fill_n(array.gradients + 3 * components * place, 3 * components,
+      std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
+void PlaceEvaluator::take(
+  const ProbedArray& array, std::size_t place, const Surroundings& around, bool isOutside)
+{
+  const std::uint64_t* found = nullptr;
+  if (!(isOutside && this->Options.outside == OutsideStrategy::Number))
+  {
+    found = std::find_if(around.ids.data(), around.ids.data() + around.ids.size(),
+      [&](std::uint64_t id)
+      {
+        for (int c = 0; c < array.components; ++c)
+        {
+          double number = 0.0;
+          array.read(&id, 1, c, &number);
+          if (!std::isfinite(number))
+          {
+            return false;
+          }
+        }
+        return true;
+      });
+    found = found == around.ids.data() + around.ids.size() ? nullptr : found;
+  }
+  array.take(place, found);
+}
+
+} // namespace isopoint

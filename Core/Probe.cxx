@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Core/Probe.h"
+
+#include "Core/IsosurfaceExtractor.h"
+#include "Core/Places/FindNeighborhoods.h"
+#include "Core/Places/ProbePlaces.h"
+#include "Core/Ranks/ItemNumbers.h"
+
+#include <algorithm>
+#include <type_traits>
+#include <variant>
+
+namespace isopoint
+{
+
+void IsosurfaceExtractor::probe(const Execution& execution, const std::vector<Vector>& places,
+  const ProbeOptions& options, const std::vector<ProbedArray>& arrays, std::uint8_t* kinds)
+{
+  if (this->Processes)
+  {
+    const Neighborhoods found =
+      this->findNeighborhoods(partOf(execution, 0.0, 0.5), places, options);
+    if (kinds)
+    {
+      std::copy(found.kinds.begin(), found.kinds.end(), kinds);
+    }
+    this->probe(partOf(execution, 0.5, 1.0), found, arrays);
+    return;
+  }
+  std::visit(
+    [&](auto& cloud)
+    {
+      using TSample = std::decay_t<decltype(cloud.tree.samples[0])>;
+      OwnNodes<TSample> nodes(execution, cloud.tree);
+      forSurroundings(
+        execution, cloud.tree, nodes, options, places,
+        [&]() { return PlaceEvaluator(options, arrays); },
+        [&](PlaceEvaluator& evaluator, std::size_t place, const SurroundingsSearch<TSample>& search)
+        {
+          const std::uint8_t kind = evaluator.enter(search.around());
+          evaluator.evaluate(place, search.around(), kind);
+          if (kinds)
+          {
+            kinds[place] = kind;
+          }
+        });
+    },
+    this->Held);
+  execution.progress(1.0);
+}
+
+Neighborhoods IsosurfaceExtractor::findNeighborhoods(
+  const Execution& execution, const std::vector<Vector>& places, const ProbeOptions& options)
+{
+  return std::visit(
+    [&](auto& cloud)
+    {
+      using TSample = std::decay_t<decltype(cloud.tree.samples[0])>;
+      if (this->Processes)
+      {
+        SharedNodes<TSample> nodes(*this->Processes, cloud.tree, cloud.begins);
+        return neighborhoodsOf(execution, cloud.tree, nodes, places, options);
+      }
+      OwnNodes<TSample> nodes(execution, cloud.tree);
+      return neighborhoodsOf(execution, cloud.tree, nodes, places, options);
+    },
+    this->Held);
+}
+
+void IsosurfaceExtractor::probe(const Execution& execution, const Neighborhoods& neighborhoods,
+  const std::vector<ProbedArray>& arrays)
+{
+  if (!this->Processes)
+  {
+    probeNeighborhoods(execution, neighborhoods, arrays);
+    return;
+  }
+  ItemNumbers items(*this->Processes, this->ItemCounts, neighborhoods.ids);
+  for (const ProbedArray& array : arrays)
+  {
+    std::vector<std::vector<double>> numbers; // by component, then index in the neighborhoods' ids
+    for (int component = 0; component < array.components; ++component)
+    {
+      numbers.push_back(items.fetch([&](const std::uint64_t* ids, std::size_t count, double* result)
+        { array.read(ids, count, component, result); }));
+    }
+    ProbedArray fetched = array;
+    fetched.read = [&numbers](
+                     const std::uint64_t* ids, std::size_t count, int component, double* result)
+    {
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        result[i] = numbers[static_cast<std::size_t>(component)][ids[i]];
+      }
+    };
+    probeNeighborhoods(execution, neighborhoods, { fetched }, true);
+  }
+}
+
+} // namespace isopoint

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "Core/Base/ProcessGroup.h"
+#include "Core/Ranks/NodeExchange.h"
+#include "Core/Tree/BinaryIndex.h"
+#include "Core/Tree/SampleTree.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+namespace isopoint
+{
+
+/// Fetches the nodes that searches miss from other ranks. See OwnNodes.
+template <class TSample>
+class SharedNodes
+{
+public:
+  SharedNodes(
+    ProcessGroup& processes, SampleTree<TSample>& tree, const std::vector<std::uint64_t>& begins)
+    : Exchange(processes, tree, begins)
+  {
+  }
+
+  /// Collective. Clears the list. @returns whether any rank missed any
+  bool provide(std::vector<MissingNode>& missing)
+  {
+    return this->Exchange.fetchNodes(missing, maximumDepth + 1);
+  }
+
+private:
+  NodeExchange<TSample> Exchange;
+};
+
+/// Numbers of items of all ranks, which only the rank of an item has. All functions are collective.
+class ItemNumbers
+{
+public:
+  /// @param itemCounts of each rank
+  /// @param ids of the items that this rank needs, in any order
+  ItemNumbers(ProcessGroup& processes, const std::vector<std::uint64_t>& itemCounts,
+    const std::vector<std::uint64_t>& ids)
+    : Processes(processes)
+    , Asked(itemCounts.size())
+  {
+    std::vector<std::uint64_t> begins(1, 0);
+    for (const std::uint64_t count : itemCounts)
+    {
+      begins.push_back(begins.back() + count);
+    }
+    for (const std::uint64_t id : ids)
+    {
+      const std::size_t rank = rankAt(begins, id);
+      this->Asked[rank].push_back(id - begins[rank]);
+      this->Ranks.push_back(rank);
+    }
+    this->Wanted = processes.exchange(this->Asked);
+  }
+
+  /// @param read(ids, count, numbers) reads numbers of this rank's items by local ids
+  /// @returns the numbers of the items that this rank needs
+  template <class Read>
+  std::vector<double> fetch(const Read& read)
+  {
+    std::vector<std::vector<double>> answers(this->Wanted.size());
+    for (std::size_t rank = 0; rank < answers.size(); ++rank)
+    {
+      answers[rank].resize(this->Wanted[rank].size());
+      read(this->Wanted[rank].data(), this->Wanted[rank].size(), answers[rank].data());
+    }
+    const std::vector<std::vector<double>> found = this->Processes.exchange(answers);
+    std::vector<std::size_t> next(found.size(), 0);
+    std::vector<double> numbers;
+    numbers.reserve(this->Ranks.size());
+    for (const std::size_t rank : this->Ranks)
+    {
+      numbers.push_back(found[rank][next[rank]++]);
+    }
+    return numbers;
+  }
+
+private:
+  ProcessGroup& Processes;
+  std::vector<std::vector<std::uint64_t>> Asked;  // by rank: local ids of items
+  std::vector<std::vector<std::uint64_t>> Wanted; // by rank: this rank's items that it needs
+  std::vector<std::size_t> Ranks;                 // of each item
+};
+
+} // namespace isopoint

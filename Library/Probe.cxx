@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Library/Probe.h"
+
+#include "Core/Contour.h"
+#include "Core/Failure.h"
+#include "Library/Arrays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace isopoint
+{
+namespace
+{
+
+/// A number as a type; 0 if the type does not have it.
+template <class T>
+T numberAs(double number)
+{
+  if constexpr (std::is_floating_point_v<T>)
+  {
+    return static_cast<T>(number);
+  }
+  // The limits of wide integers are rounded to powers of two.
+  const bool isInside = number >= static_cast<double>(std::numeric_limits<T>::lowest()) &&
+                        number < -2.0 * static_cast<double>(std::numeric_limits<T>::max() / -2 - 1);
+  return isInside ? static_cast<T>(number) : T{ 0 };
+}
+
+ProbedArray probedArray(const isopoint_array& array, const isopoint_probed& result,
+  std::size_t sampleCount, const ProbeOptions& options);
+
+} // namespace
+
+std::vector<Vector> placesFrom(const isopoint_array* places)
+{
+  const ArrayReader reader(places, "places");
+  reader.require(reader.count(), 3);
+  if (!isFloatingPoint(reader.type()))
+  {
+    throw UsageError("The array of places holds integers. Pass float or double.");
+  }
+  std::vector<Vector> all(reader.count());
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    all[i] = { reader.at(i, 0), reader.at(i, 1), reader.at(i, 2) };
+  }
+  return all;
+}
+
+ProbeOptions probeOptionsFrom(const isopoint_probe_options* given)
+{
+  isopoint_probe_options all;
+  isopoint_initialize_probe_options(&all, sizeof(all));
+  if (given)
+  {
+    if (given->size != sizeof(all))
+    {
+      throw UsageError("The size of the options is " + std::to_string(given->size) +
+                       ". Set them up by isopoint_initialize_probe_options(), with the header of"
+                       " this version of the library.");
+    }
+    all = *given;
+  }
+  if (all.method < ISOPOINT_METHOD_BLEND || all.method > ISOPOINT_METHOD_NEAREST)
+  {
+    throw UsageError(
+      "The method is " + std::to_string(all.method) + ". Use an ISOPOINT_METHOD, 0 to 4.");
+  }
+  if (all.outside < ISOPOINT_OUTSIDE_NUMBER || all.outside > ISOPOINT_OUTSIDE_EXTRAPOLATE)
+  {
+    throw UsageError("The option outside is " + std::to_string(all.outside) +
+                     ". Use an ISOPOINT_OUTSIDE, 0 to 2.");
+  }
+  return { static_cast<PlaceMethod>(all.method), static_cast<OutsideStrategy>(all.outside),
+    all.outside_number };
+}
+
+std::vector<ProbedArray> probedArrays(const isopoint_array* arrays, std::int64_t count,
+  const isopoint_probed* results, std::size_t sampleCount, const ProbeOptions& options)
+{
+  if (count < 0 || (count > 0 && !(arrays && results)))
+  {
+    throw UsageError("There are not " + std::to_string(count) +
+                     " arrays and results. Pass as many as their count says.");
+  }
+  std::vector<ProbedArray> probed;
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    probed.push_back(probedArray(arrays[i], results[i], sampleCount, options));
+  }
+  return probed;
+}
+
+namespace
+{
+
+ProbedArray probedArray(const isopoint_array& array, const isopoint_probed& result,
+  std::size_t sampleCount, const ProbeOptions& options)
+{
+  const ArrayReader reader(&array, "values");
+  reader.require(sampleCount, reader.components());
+  if (!result.values)
+  {
+    throw UsageError("The memory for values is null. Pass memory for one tuple per place.");
+  }
+  ProbedArray probed;
+  probed.components = reader.components();
+  probed.valueError = isFloatingPoint(reader.type()) ? 0.0 : roundingError;
+  withType(reader.type(),
+    [&](auto number)
+    {
+      using T = decltype(number);
+      probed.read = [reader](
+                      const std::uint64_t* ids, std::size_t count, int component, double* numbers)
+      {
+        for (std::size_t i = 0; i < count; ++i)
+        {
+          numbers[i] = static_cast<double>(reader.at<T>(ids[i], component));
+        }
+      };
+      if (options.method == PlaceMethod::Nearest)
+      {
+        probed.take = [reader, values = static_cast<T*>(result.values),
+                        nothing = numberAs<T>(options.outsideNumber)](
+                        std::size_t place, const std::uint64_t* id)
+        {
+          const auto components = static_cast<std::size_t>(reader.components());
+          for (std::size_t c = 0; c < components; ++c)
+          {
+            values[components * place + c] = id ? reader.at<T>(*id, static_cast<int>(c)) : nothing;
+          }
+        };
+      }
+    });
+  if (options.method == PlaceMethod::Nearest)
+  {
+    if (result.gradients)
+    {
+      throw UsageError("The method NEAREST has no gradients. Pass null, or use another method.");
+    }
+    return probed;
+  }
+  probed.values = static_cast<double*>(result.values);
+  probed.gradients = result.gradients;
+  return probed;
+}
+
+} // namespace
+} // namespace isopoint
+
+isopoint_weights isopoint_neighborhoods::weights()
+{
+  using isopoint::laneCount;
+  if (this->found.options.method == isopoint::PlaceMethod::Blend)
+  {
+    throw isopoint::UsageError(
+      "BLEND has no weights, because it is not linear in the values. Use another method.");
+  }
+  if (this->begins.empty())
+  {
+    this->samples.clear(); // of a call that failed
+    this->values.clear();
+    this->gradients.clear();
+    std::vector<std::int64_t> rows(1, 0);
+    isopoint::Surroundings around;
+    for (std::size_t place = 0; place < this->found.places.size(); ++place)
+    {
+      this->found.surroundings(place, false, around);
+      const bool isOutside = (this->found.kinds[place] & isopoint::PlaceOutside) != 0;
+      const bool isNearest = this->found.options.outside == isopoint::OutsideStrategy::Nearest;
+      const std::size_t count =
+        !isOutside ? around.fitted : std::min<std::size_t>(isNearest ? 1 : 0, around.size());
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        const double* const of =
+          this->found.weights.data() + laneCount * (this->found.begins[place] + i);
+        const std::size_t end = around.idBegins[i + 1];
+        const auto share = 1.0 / static_cast<double>(end - around.idBegins[i]);
+        for (std::size_t id = around.idBegins[i]; id < end; ++id)
+        {
+          this->samples.push_back(static_cast<std::int64_t>(around.ids[id]));
+          this->values.push_back(share * (isOutside ? 1.0 : of[0]));
+          for (std::size_t k = 1; k < laneCount; ++k)
+          {
+            this->gradients.push_back(isOutside ? 0.0 : share * of[k]);
+          }
+        }
+      }
+      rows.push_back(static_cast<std::int64_t>(this->samples.size()));
+    }
+    this->begins.swap(rows);
+  }
+  return { static_cast<std::int64_t>(this->found.places.size()), this->begins.data(),
+    this->samples.data(), this->values.data(), this->gradients.data() };
+}

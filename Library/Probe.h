@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "Library/isopoint.h"
+
+#include "Core/Base/Execution.h"
+#include "Core/Base/Vector.h"
+#include "Core/Probe.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace isopoint
+{
+
+/// The arguments of isopoint_probe(), checked. @throws UsageError
+std::vector<Vector> placesFrom(const isopoint_array* places);
+ProbeOptions probeOptionsFrom(const isopoint_probe_options* given);
+std::vector<ProbedArray> probedArrays(const isopoint_array* arrays, std::int64_t count,
+  const isopoint_probed* results, std::size_t sampleCount, const ProbeOptions& options);
+
+} // namespace isopoint
+
+struct isopoint_neighborhoods
+{
+  isopoint::Execution execution;
+  isopoint::Neighborhoods found;
+  std::size_t sampleCount;
+
+  /// See isopoint_get_weights(). @throws isopoint::UsageError, std::bad_alloc
+  isopoint_weights weights();
+
+  std::vector<std::int64_t> begins{};
+  std::vector<std::int64_t> samples{};
+  std::vector<double> values{};
+  std::vector<double> gradients{};
+};

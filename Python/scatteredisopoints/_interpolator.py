@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Values at places as a function: see Samples.interpolator()."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from ._samples import Samples
+
+
+class Interpolator:
+    """Interpolates one array of kept samples, as SciPy's interpolators do: see :meth:`Samples.interpolator`."""
+
+    def __init__(self, samples: Samples, array: Any, options: dict[str, Any]):
+        self._samples = samples
+        self._array = array
+        self._options = options
+
+    def __call__(self, *x: Any) -> np.ndarray:
+        """The values at places.
+
+        Parameters
+        ----------
+        *x
+            Places, shape (..., 3), or three arrays of coordinates that broadcast.
+
+        Returns
+        -------
+        The shape of the places without their last axis, followed by the components of the array.
+        """
+        return self._evaluate(x, False)
+
+    def gradient(self, *x: Any) -> np.ndarray:
+        """The gradients at places: the shape of the values, followed by the three derivatives."""
+        return self._evaluate(x, True)
+
+    def _evaluate(self, x: tuple, gradient: bool) -> np.ndarray:
+        places = np.asarray(x[0]) if len(x) == 1 else np.stack(np.broadcast_arrays(*x), axis=-1)
+        if places.shape[-1:] != (3,):
+            raise ValueError(f"places have the shape {places.shape}, not (..., 3)")
+        found = self._samples._probe(
+            places.reshape(-1, 3), self._array, gradient, **self._options, stacklevel=4)
+        found = found[1] if gradient else found
+        return found.reshape(places.shape[:-1] + found.shape[1:])

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Values of scattered samples at places, and their gradients: see probe()."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Mapping, Optional, Union
+
+import numpy as np
+
+from . import _datasets
+from ._arrays import CELL, POINT, are_names
+from ._progress import Progress, part, shown_progress
+from ._samples import Samples
+
+
+def probe(
+    positions: Any,
+    values: Any,
+    places: Any,
+    *,
+    gradient: bool = False,
+    method: str = "BLEND",
+    outside: Union[float, str, None] = math.nan,
+    threads: Optional[int] = None,
+    progress: Progress = None,
+) -> Any:
+    """Interpolates scattered samples at places.
+
+    Parameters
+    ----------
+    positions
+        The samples' positions, shape (n, 3), in any unit of length. Or a data set instead: any grid or
+        composite of VTK, PyVista or vedo.
+    values
+        Numbers of the samples, shape (n,) or (n, c), or a mapping of names to such arrays: all share one search.
+        Where one is not finite or masked, this array gets its value from the other samples around. For a data set
+        also the name of an array of points or cells, or a list of names.
+    places
+        Where to interpolate, shape (m, 3), or a data set, at its points.
+    gradient
+        Whether to compute gradients, too.
+    method
+        "BLEND": the mean of four local fits, weighted by their estimated errors. "CUBIC", "QUADRATIC" and "AFFINE":
+        a fit of this degree, linear in the values. "NEAREST": the nearest sample.
+    outside
+        What places outside the samples get: a number, "nearest" for the value of the nearest sample, or None for
+        what the method gives there.
+    threads
+        Maximum number of threads; None: all available cores. The result does not depend on it.
+    progress
+        A function that is called with the share done, from 0 to 1; an exception in it ends the work. True:
+        a bar, by tqdm or rich.
+
+    Returns
+    -------
+    Values of float64, shape (m,) or (m, c); "NEAREST" keeps the type of the array, and integers are 0 outside if
+    they cannot be the number. With gradient, a pair of these and of gradients, shape (m, 3) or (m, c, 3). A dict of
+    arrays gives dicts.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If arguments have a wrong shape or type, an option is out of its range, or there are no samples.
+    MemoryError
+        If there is not enough memory.
+    KeyboardInterrupt
+        After Ctrl-C, within a fraction of a second.
+
+    Warns
+    -----
+    RuntimeWarning
+        About samples left out, and about samples in a plane, whose gradients have no normal part.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from scatteredisopoints import probe
+    >>> positions = np.random.default_rng(1).random((2000, 3))
+    >>> value, gradient = probe(positions, positions @ [1, 2, 3], [[0.5, 0.5, 0.5]], gradient=True)
+    >>> value.round(6), gradient.round(6)
+    (array([3.]), array([[1., 2., 3.]]))
+    """
+    return _probe(positions, values, places, gradient, method, outside, threads, progress)
+
+
+def gradient(
+    positions: Any,
+    values: Any,
+    *,
+    method: str = "BLEND",
+    threads: Optional[int] = None,
+    progress: Progress = None,
+) -> Any:
+    """Gradients at the samples themselves, shape (n, 3) or (n, c, 3): :func:`probe` describes parameters and errors.
+
+    A mapping of names to arrays gives a dict. Of a data set, the samples are the points or the cells with the array.
+    """
+    return _probe(positions, values, None, True, method, math.nan, threads, progress)[1]
+
+
+def _probe(source: Any, values: Any, places: Any, gradient: bool, method: str, outside: Any,
+           threads: Optional[int], progress: Progress) -> Any:
+    if values is None:
+        raise TypeError("values are missing: numbers of the samples, or the name of an array of a data set")
+    with shown_progress(progress, "Probing") as report:
+        samples = Samples._of(samples_for(source, values), threads, progress=part(report, 0.0, 0.3))
+        places = samples._current("positions", samples._positions) if places is None else places
+        return samples._probe(places, values, gradient, method, outside, None, part(report, 0.3, 1.0), stacklevel=4)
+
+
+def samples_for(source: Any, values: Any, associations: tuple[int, ...] = (POINT, CELL)) -> _datasets.DataSamples:
+    """The samples for Samples.probe(), without values, so that each array keeps those it has."""
+    data = _datasets.data_object(source)
+    if data is None:
+        return _datasets.samples_of(source, None)
+    if isinstance(values, str) or are_names(values):
+        return _datasets.samples_with(data, [values] if isinstance(values, str) else values, associations)
+    first = next(iter(values.values()), ()) if isinstance(values, Mapping) else values
+    return _datasets.samples_with(data, (), (_datasets.association_of(data, np.shape(first)),))

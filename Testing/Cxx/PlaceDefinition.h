@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "PlaceTesting.h"
+
+#include <Eigen/Dense>
+
+/// Values at places as docs/algorithm.md defines them in section 13, written down plainly and
+/// independently of the core: all samples sorted by distance, and polynomials made orthonormal one
+/// after the other (Gram and Schmidt). Equal to the core's except for rounding.
+namespace placedefinition
+{
+
+using namespace places;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+/// The samples at one position: their offset from the place, and the mean of each component.
+struct Site
+{
+  Vector3d offset;
+  std::uint64_t id; // the lowest
+  VectorXd values;
+};
+
+inline std::size_t countOf(PlaceMethod method)
+{
+  return std::array<std::size_t, 5>{ 64, 48, 27, 12, 1 }[static_cast<std::size_t>(method)];
+}
+
+/// All sites, nearest first. Values that are not finite count as missing.
+inline std::vector<Site> sitesAround(
+  const clouds::Cloud& cloud, const Array& array, const Vector& place)
+{
+  std::map<Vector, std::vector<std::size_t>> samples;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    samples[cloud.at(i)].push_back(i);
+  }
+  std::vector<Site> sites;
+  for (const auto& [position, ids] : samples)
+  {
+    const Vector offset = position - place;
+    Site site{ { offset[0], offset[1], offset[2] }, ids.front(), VectorXd(array.components) };
+    for (int c = 0; c < array.components; ++c)
+    {
+      Numbers finite;
+      for (const std::size_t id : ids)
+      {
+        const double number =
+          array
+            .numbers[static_cast<std::size_t>(array.components) * id + static_cast<std::size_t>(c)];
+        if (std::isfinite(number))
+        {
+          finite.push_back(number);
+        }
+      }
+      site.values[c] =
+        std::accumulate(finite.begin(), finite.end(), 0.0) / static_cast<double>(finite.size());
+    }
+    sites.push_back(site);
+  }
+  std::sort(sites.begin(), sites.end(),
+    [](const Site& a, const Site& b)
+    {
+      const auto distance = [](const Site& site)
+      {
+        return dot(Vector{ site.offset[0], site.offset[1], site.offset[2] },
+          Vector{ site.offset[0], site.offset[1], site.offset[2] });
+      };
+      return std::make_pair(distance(a), a.id) < std::make_pair(distance(b), b.id);
+    });
+  return sites;
+}
+
+/// The samples of a fit, in units, flattened (13.1).
+struct Around
+{
+  std::vector<Site> sites;
+  std::size_t count; // to fit to
+  double unit = 1.0;
+  double squaredReach;
+  double squaredHeight = 0.0;
+  bool isFlat = false;
+  std::array<Vector3d, 3> axes{ Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ() };
+
+  Around(std::vector<Site> all, std::size_t most, double reach)
+    : sites(std::move(all))
+    , count(most)
+  {
+    this->unit = reach > 0.0 ? std::exp2(std::floor(std::log2(reach))) : 1.0;
+    this->squaredReach = reach / this->unit * (reach / this->unit);
+    for (Site& site : this->sites)
+    {
+      site.offset /= this->unit;
+    }
+    const double whole = this->count == this->sites.size()
+                           ? this->squaredReach
+                           : 1.21 * this->sites.back().offset.squaredNorm();
+    const VectorXd w = this->weights(whole, false);
+    Vector3d mean = Vector3d::Zero();
+    for (std::size_t i = 0; i < this->sites.size(); ++i)
+    {
+      mean += w[static_cast<Index>(i)] * this->sites[i].offset / w.sum();
+    }
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    for (std::size_t i = 0; i < this->sites.size(); ++i)
+    {
+      const Vector3d offset = this->sites[i].offset - mean;
+      covariance += w[static_cast<Index>(i)] * offset * offset.transpose();
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+    this->isFlat = !(solver.eigenvalues()[0] > 1e-7 * solver.eigenvalues()[2]);
+    if (!this->isFlat)
+    {
+      return;
+    }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const Vector3d direction = solver.eigenvectors().col(2 - axis);
+      const bool isThin = !(solver.eigenvalues()[2 - axis] > 1e-7 * solver.eigenvalues()[2]);
+      this->squaredHeight += isThin ? std::pow(mean.dot(direction), 2) : 0.0;
+      this->axes[static_cast<std::size_t>(axis)] = isThin ? Vector3d(Vector3d::Zero()) : direction;
+    }
+    this->squaredReach = std::max(0.0, this->squaredReach - this->squaredHeight);
+    for (Site& site : this->sites)
+    {
+      site.offset = Vector3d(site.offset.dot(this->axes[0]), site.offset.dot(this->axes[1]),
+        site.offset.dot(this->axes[2]));
+    }
+  }
+
+  VectorXd weights(double squared, bool isSteep) const
+  {
+    double h = 0.0;
+    for (const Site& site : this->sites)
+    {
+      h += site.offset.norm() / static_cast<double>(this->sites.size());
+    }
+    VectorXd w(this->sites.size());
+    for (std::size_t i = 0; i < this->sites.size(); ++i)
+    {
+      const double d = this->sites[i].offset.squaredNorm();
+      const double taper = std::pow(std::max(0.0, 1.0 - (squared > 0.0 ? d / squared : 0.0)), 2);
+      w[static_cast<Index>(i)] =
+        isSteep ? taper / std::pow(0.1 + (h > 0.0 ? d / (h * h) : 0.0), 3) : taper;
+    }
+    return w;
+  }
+};
+
+/// A fit of a degree (13.2) for all components.
+struct Fit
+{
+  MatrixXd atPlace; // value and gradient, by component
+  VectorXd mean;
+  MatrixXd residuals; // of samples left out, by component
+  double variance;
+  double gradientVariance;
+
+  Fit(const Around& around, const VectorXd& w, int degree, double valueError)
+  {
+    const auto n = static_cast<Index>(around.sites.size());
+    const Index components = around.sites[0].values.size();
+    constexpr std::array<std::array<int, 3>, 20> powers{ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 },
+      { 0, 0, 1 }, { 2, 0, 0 }, { 0, 2, 0 }, { 0, 0, 2 }, { 1, 1, 0 }, { 1, 0, 1 }, { 0, 1, 1 },
+      { 3, 0, 0 }, { 0, 3, 0 }, { 0, 0, 3 }, { 2, 1, 0 }, { 2, 0, 1 }, { 1, 2, 0 }, { 0, 2, 1 },
+      { 1, 0, 2 }, { 0, 1, 2 }, { 1, 1, 1 } } };
+    const Index size = degree == 1 ? 4 : degree == 2 ? 10 : 20;
+    MatrixXd q = MatrixXd::Zero(n, size);    // orthonormal polynomials at the samples
+    MatrixXd p = MatrixXd::Zero(size, size); // their coefficients
+    VectorXd shares = VectorXd::Zero(size);
+    for (Index j = 0; j < size; ++j)
+    {
+      VectorXd column(n);
+      for (Index i = 0; i < n; ++i)
+      {
+        column[i] = 1.0;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          column[i] *= std::pow(around.sites[static_cast<std::size_t>(i)].offset[axis],
+            powers[static_cast<std::size_t>(j)][static_cast<std::size_t>(axis)]);
+        }
+      }
+      const double diagonal = (w.array() * column.array().square()).sum();
+      VectorXd coefficients = VectorXd::Unit(size, j);
+      for (int twice = 0; twice < 2; ++twice)
+      {
+        for (Index k = 0; k < j; ++k)
+        {
+          const double product = (w.array() * column.array() * q.col(k).array()).sum();
+          column -= product * q.col(k);
+          coefficients -= product * p.col(k);
+        }
+      }
+      const double pivot = (w.array() * column.array().square()).sum();
+      if (pivot > 1e-7 * diagonal)
+      {
+        q.col(j) = column / std::sqrt(pivot);
+        p.col(j) = coefficients / std::sqrt(pivot);
+        shares[j] = std::min(1.0, (pivot / diagonal - 1e-7) / (1e-5 - 1e-7));
+      }
+    }
+    MatrixXd values(n, components);
+    for (Index i = 0; i < n; ++i)
+    {
+      values.row(i) = around.sites[static_cast<std::size_t>(i)].values.transpose();
+    }
+    const MatrixXd products = q.transpose() * w.asDiagonal() * values;
+    const MatrixXd effects = p.topRows(4) * shares.asDiagonal(); // on value and gradient
+    this->atPlace = effects * products;
+    this->mean = products.row(0).transpose() * q(0, 0);
+    const VectorXd rests =
+      (1.0 - (w.array() * (q.array().square().matrix() * shares).array())).matrix();
+    this->residuals = values - q * shares.asDiagonal() * products;
+    double squares = 0.0;
+    for (Index i = 0; i < n; ++i)
+    {
+      this->residuals.row(i) +=
+        std::max(0.0, 1e-3 - rests[i]) * (values.row(i) - this->mean.transpose());
+      this->residuals.row(i) /= std::max(rests[i], 1e-3);
+      squares += w[i] * this->residuals.row(i).squaredNorm();
+    }
+    const MatrixXd ofSamples = effects * q.transpose() * w.asDiagonal();
+    const double sigma =
+      std::max(squares / w.sum(), static_cast<double>(components) * valueError * valueError);
+    this->variance = sigma * ofSamples.row(0).norm();
+    this->gradientVariance = sigma * ofSamples.bottomRows(3).squaredNorm();
+  }
+};
+
+/// Value and gradient (columns 1 to 3) of each component.
+struct Result
+{
+  MatrixXd numbers;
+  bool isNothing = false;
+};
+
+inline bool isEnough(std::size_t count, int degree)
+{
+  return count >= (degree == 2 ? 13u : 25u); // 5/4 of the coefficients
+}
+
+inline MatrixXd blended(const Around& around, double valueError)
+{
+  const auto squaredReach = [&](std::size_t few)
+  { return few < around.count ? around.sites[few].offset.squaredNorm() : around.squaredReach; };
+  std::vector<Fit> fits;
+  fits.emplace_back(around, around.weights(squaredReach(24), false), 1, valueError);
+  if (isEnough(std::min<std::size_t>(around.count, 40), 2))
+  {
+    fits.emplace_back(around, around.weights(around.squaredReach, false), 2, valueError);
+    fits.emplace_back(around, around.weights(squaredReach(40), true), 2, valueError);
+  }
+  const bool hasCubic = isEnough(around.count, 3);
+  if (hasCubic)
+  {
+    fits.emplace_back(around, around.weights(around.squaredReach, true), 3, valueError);
+  }
+  const auto share = [](double variance, double least)
+  { return variance > least ? std::pow(least / variance, 2) : 1.0; };
+  double least = fits[0].variance;
+  double leastGradient = fits[0].gradientVariance;
+  for (const Fit& fit : fits)
+  {
+    least = std::min(least, fit.variance);
+    leastGradient = std::min(leastGradient, fit.gradientVariance);
+  }
+  MatrixXd result = MatrixXd::Zero(fits[0].atPlace.rows(), fits[0].atPlace.cols());
+  Eigen::Vector4d totals = Eigen::Vector4d::Zero();
+  for (const Fit& fit : fits)
+  {
+    const double ofGradient = share(fit.gradientVariance, leastGradient);
+    const Eigen::Vector4d shares(share(fit.variance, least), ofGradient, ofGradient, ofGradient);
+    result += shares.asDiagonal() * fit.atPlace;
+    totals += shares;
+  }
+  result = totals.cwiseInverse().asDiagonal() * result;
+
+  // The limit (13.3).
+  const VectorXd mean = fits.back().mean;
+  double spread = 0.0;
+  double lowest = 0.0;
+  double highest = 0.0;
+  double worst = 0.0;
+  for (std::size_t i = 0; i < around.count; ++i)
+  {
+    const double d = around.sites[i].offset.squaredNorm();
+    const double limit = std::min(
+      1.0, 4.0 * std::max(0.0, 1.0 - (around.squaredReach > 0.0 ? d / around.squaredReach : 0.0)));
+    const VectorXd difference = limit * (around.sites[i].values - mean);
+    spread = std::max(spread, difference.norm());
+    lowest = std::min(lowest, difference[0]);
+    highest = std::max(highest, difference[0]);
+    worst = std::max(worst, limit * fits.back().residuals.row(static_cast<Index>(i)).norm());
+  }
+  const VectorXd difference = result.row(0).transpose() - mean;
+  const double most = difference.size() > 1 ? spread : (difference[0] > 0.0 ? highest : -lowest);
+  if (difference.norm() > most)
+  {
+    const double resolution = hasCubic ? std::clamp((0.1 - worst / spread) / 0.05, 0.0, 1.0) : 0.0;
+    const double limited = most + resolution * (difference.norm() - most);
+    result.row(0) = (mean + limited / difference.norm() * difference).transpose();
+  }
+  return result;
+}
+
+/// The value and gradient of an array at a place, without regard to whether it is outside.
+inline Result at(const clouds::Cloud& cloud, const Array& array, const Vector& place,
+  PlaceMethod method, std::size_t needed)
+{
+  std::vector<Site> sites = sitesAround(cloud, array, place);
+  const std::size_t most = std::min(countOf(method), sites.size());
+  const double reach =
+    sites.size() > most ? sites[most].offset.norm() : 1.1 * sites.back().offset.norm();
+  sites.resize(std::min(needed, sites.size()));
+  std::size_t count = 0;
+  std::vector<Site> with;
+  for (std::size_t i = 0; i < sites.size(); ++i)
+  {
+    if (sites[i].values.allFinite())
+    {
+      with.push_back(sites[i]);
+      count += i < most ? 1 : 0;
+    }
+  }
+  if (count == 0)
+  {
+    return { {}, true };
+  }
+  if (method == PlaceMethod::Nearest)
+  {
+    MatrixXd numbers = MatrixXd::Zero(4, array.components);
+    numbers.row(0) = with[0].values.transpose();
+    return { numbers };
+  }
+  const Around around(with, count, reach);
+  const int degree = method == PlaceMethod::Affine || !isEnough(count, 2)      ? 1
+                     : method == PlaceMethod::Quadratic || !isEnough(count, 3) ? 2
+                                                                               : 3;
+  MatrixXd numbers =
+    method == PlaceMethod::Blend
+      ? blended(around, array.valueError)
+      : Fit(around, around.weights(around.squaredReach, method != PlaceMethod::Affine), degree, 0.0)
+          .atPlace;
+  Eigen::Matrix3d axes;
+  axes << around.axes[0], around.axes[1], around.axes[2];
+  numbers.bottomRows(3) = axes * numbers.bottomRows(3) / around.unit;
+  return { numbers };
+}
+
+} // namespace placedefinition

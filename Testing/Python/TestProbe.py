@@ -1,0 +1,228 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Values and gradients at places, with NumPy alone."""
+
+import contextlib
+import os
+import signal
+import unittest
+import warnings
+
+import numpy as np
+from scatteredisopoints import Samples, contour, gradient, probe
+
+RANDOM = np.random.default_rng(1)
+POSITIONS = RANDOM.uniform(-1, 1, (6000, 3))
+# A few places among random samples count as outside.
+PLACES = RANDOM.uniform(-0.8, 0.8, (310, 3))
+PLACES = PLACES[np.isfinite(probe(POSITIONS, POSITIONS[:, 0], PLACES, method="AFFINE"))][:300]
+DEGREES = {"BLEND": 1, "AFFINE": 1, "QUADRATIC": 2, "CUBIC": 3}
+
+
+def polynomial(degree, places):
+    """A polynomial with two components, and its gradients, of shapes (n, 2) and (n, 2, 3)."""
+    x, y, z = places.T
+    one, zero = np.ones_like(x), np.zeros_like(x)
+    values, gradients = [x - 2 * y + 3 * z + 4, z], [[one, -2 * one, 3 * one], [zero, zero, one]]
+    if degree > 1:
+        values, gradients = [values[0], x * y + z**2], [gradients[0], [y, x, 2 * z]]
+    if degree > 2:
+        values, gradients = [values[1], x * y * z - y**3], [gradients[1], [y * z, x * z - 3 * y**2, x * y]]
+    return np.stack(values, axis=-1), np.moveaxis(np.array(gradients), -1, 0)
+
+
+class Values(unittest.TestCase):
+    def test_polynomials_are_exact(self):
+        for method, degree in DEGREES.items():
+            for kind in (np.float32, np.float64):
+                positions = POSITIONS.astype(kind)
+                values, gradients = probe(
+                    positions, polynomial(degree, positions.astype(float))[0], PLACES, method=method, gradient=True)
+                expected = polynomial(degree, PLACES)
+                np.testing.assert_allclose(values, expected[0], atol=1e-11)
+                np.testing.assert_allclose(gradients, expected[1], atol=1e-9)
+
+    def test_a_smooth_field_and_vectors_that_turn(self):
+        def field(places):
+            return np.sin(2 * places) + places[:, [1, 2, 0]] ** 2
+
+        found, gradients = probe(POSITIONS, field(POSITIONS), PLACES, gradient=True)
+        np.testing.assert_allclose(found, field(PLACES), atol=5e-3)
+        step = 1e-6 * np.eye(3)
+        expected = np.stack([(field(PLACES + each) - field(PLACES - each)) / 2e-6 for each in step], axis=-1)
+        np.testing.assert_allclose(gradients, expected, atol=0.1)
+        turn = np.linalg.qr(RANDOM.normal(size=(3, 3)))[0]
+        turned = probe(POSITIONS, field(POSITIONS) @ turn, PLACES)
+        np.testing.assert_allclose(turned, found @ turn, atol=1e-10)
+
+    def test_the_nearest_sample(self):
+        nearest = np.linalg.norm(PLACES[:, None] - POSITIONS, axis=-1).argmin(axis=1)
+        for kind in ("f4", "i1", "u8", ">i4"):
+            array = RANDOM.integers(0, 99, (len(POSITIONS), 2)).astype(kind)
+            found = probe(POSITIONS, array, PLACES, method="nearest")
+            self.assertEqual(found.dtype, array.dtype.newbyteorder("="))
+            np.testing.assert_array_equal(found, array[nearest])
+
+    def test_shapes_and_types(self):
+        count, places = len(POSITIONS), len(PLACES)
+        for shape in ((), (1,), (4,), (3, 3)):
+            array = RANDOM.integers(0, 9, (count, *shape))
+            values, gradients = probe(POSITIONS, array, PLACES, gradient=True)
+            self.assertEqual((values.shape, gradients.shape), ((places, *shape), (places, *shape, 3)))
+            self.assertEqual((values.dtype, gradients.dtype), (float, float))
+            np.testing.assert_array_equal(gradient(POSITIONS, array)[:5], probe(
+                POSITIONS, array, POSITIONS[:5], gradient=True)[1])
+            self.assertEqual(probe(POSITIONS, array, PLACES[:0]).shape, (0, *shape))
+        arrays = {"a": POSITIONS[:, 0], "b": POSITIONS}
+        values, gradients = probe(POSITIONS, arrays, PLACES, gradient=True)
+        for name, array in arrays.items():
+            np.testing.assert_array_equal(values[name], probe(POSITIONS, array, PLACES))
+            np.testing.assert_array_equal(gradient(POSITIONS, arrays)[name], gradient(POSITIONS, array))
+        self.assertEqual(list(gradients), ["a", "b"])
+        self.assertEqual(probe(POSITIONS, {}, PLACES), {})
+
+    def test_layouts_make_no_difference(self):
+        array = np.sin(POSITIONS)
+        expected = probe(POSITIONS, array, PLACES)
+        read_only = array.copy()
+        read_only.flags.writeable = False
+        for positions, values, places in (
+                (np.asfortranarray(POSITIONS), np.asfortranarray(array), np.asfortranarray(PLACES)),
+                (POSITIONS, np.repeat(array, 2, axis=1)[:, ::2], np.repeat(PLACES, 2, axis=0)[::2]),
+                (POSITIONS.astype(">f8"), array.astype(np.longdouble), PLACES.astype(">f8")),
+                (POSITIONS.tolist(), read_only, PLACES.tolist()),
+                (POSITIONS, array[:, ::-1].copy()[:, ::-1], PLACES[::-1].copy()[::-1])):
+            np.testing.assert_array_equal(probe(positions, values, places), expected)
+        for threads in (1, 3):
+            np.testing.assert_array_equal(probe(POSITIONS, array, PLACES, threads=threads), expected)
+
+
+class Outside(unittest.TestCase):
+    def test_places_outside(self):
+        values, far = POSITIONS @ [1, 2, 3], [[0.1, 0.2, 0.3], [9, 9, 9], [np.nan, 0, 0]]
+        for outside, expected in ((np.nan, np.nan), (-5, -5), ("nearest", values[POSITIONS.sum(axis=1).argmax()]),
+                                  (None, 54)):
+            found, gradients = probe(POSITIONS, values, far, outside=outside, gradient=True)
+            np.testing.assert_allclose(found[:2], [1.4, expected], atol=1e-9)
+            self.assertEqual(np.isnan(gradients[1]).all(), outside not in ("nearest", None))
+        self.assertTrue(np.isfinite(probe(POSITIONS, values, POSITIONS)).all())
+        self.assertEqual(probe(POSITIONS, np.arange(len(POSITIONS)), far, method="NEAREST")[1], 0)
+
+    def test_values_that_are_missing(self):
+        values, is_there = np.sin(POSITIONS[:, 0]), np.arange(len(POSITIONS)) % 3 > 0
+        expected = probe(POSITIONS[is_there], values[is_there], PLACES)
+        for lacking in (np.where(is_there, values, np.nan), np.ma.masked_array(values, ~is_there)):
+            found = probe(POSITIONS, {"lacking": lacking, "all": values}, PLACES)
+            np.testing.assert_allclose(found["lacking"], np.sin(PLACES[:, 0]), atol=1e-3)
+            np.testing.assert_array_equal(found["all"], probe(POSITIONS, values, PLACES))
+        samples = Samples(POSITIONS, lacking)
+        with self.assertWarnsRegex(RuntimeWarning, "2000 of 6000 samples are left out") as caught:
+            np.testing.assert_allclose(samples.probe(PLACES), expected, atol=1e-12)
+        self.assertEqual(caught.filename, __file__)
+
+    def test_samples_in_a_plane(self):
+        flat = POSITIONS * [1, 1, 0]
+        with self.assertWarnsRegex(RuntimeWarning, "At 300 of 300 places .* in a plane") as caught:
+            values, gradients = probe(flat, flat @ [1, 2, 3], PLACES, gradient=True, outside=None)
+        self.assertEqual(caught.filename, __file__)
+        np.testing.assert_allclose(values, PLACES @ [1, 2, 0], atol=1e-12)
+        np.testing.assert_allclose(gradients, np.tile([1, 2, 0], (300, 1)), atol=1e-10)
+        with self.assertWarns(RuntimeWarning):
+            self.assertEqual(probe([[1, 2, 3]], [7], [[1, 2, 3]]), 7)
+
+
+class KeptSamples(unittest.TestCase):
+    def test_samples_with_and_without_values(self):
+        values = np.linalg.norm(POSITIONS, axis=1)
+        expected, surface = probe(POSITIONS, values, PLACES), contour(POSITIONS, values, 0.5)
+        samples = Samples(POSITIONS)
+        self.assertEqual(repr(samples), "<Samples: 6000, without values>")
+        np.testing.assert_array_equal(samples.probe(PLACES, values), expected)
+        with self.assertRaisesRegex(TypeError, "without values"):
+            samples.probe(PLACES)
+        with self.assertRaisesRegex(ValueError, "without values: call replace_values"):
+            samples.contour(0.5)
+        samples.replace_values(values)
+        for _ in range(2):
+            np.testing.assert_array_equal(samples.probe(PLACES), expected)
+            self.assertEqual(samples.contour(0.5).points.tobytes(), surface.points.tobytes())
+        samples.contour(0.5, keep_tree=False)
+        for arrays in (None, values):
+            with self.assertRaisesRegex(ValueError, "keep_tree was False: call replace_values"):
+                samples.probe(PLACES, arrays)
+
+    def test_interpolators(self):
+        samples = Samples(POSITIONS, POSITIONS @ [1, 2, 3])
+        x, y, z = grid = np.meshgrid([0.1, 0.2], [0.3], [0.1, 0.2, 0.4], indexing="ij")
+        plane, place = samples.interpolator(), samples.interpolator(POSITIONS, method="CUBIC", outside=0)
+        np.testing.assert_allclose(plane(*grid), x + 2 * y + 3 * z)
+        np.testing.assert_allclose(plane(0.1, 0.2, [0.3, 0.4]), [1.4, 1.7])
+        np.testing.assert_allclose(plane.gradient([0.1, 0.2, 0.3]), [1, 2, 3])
+        self.assertEqual((plane([0.1, 0.2, 0.3]).shape, place(0.1, 0.2, 0.3).shape), ((), (3,)))
+        np.testing.assert_allclose(place(np.stack(grid, axis=-1)), np.stack(grid, axis=-1))
+        self.assertEqual(place.gradient(np.zeros((2, 5, 3))).shape, (2, 5, 3, 3))
+        self.assertEqual(place([9, 9, 9]).tolist(), [0, 0, 0])
+        with self.assertRaisesRegex(ValueError, r"\(5, 2\), not \(..., 3\)"):
+            plane(np.zeros((5, 2)))
+        for arguments, error in ((dict(array={"a": POSITIONS}), TypeError), (dict(method="LINEAR"), ValueError),
+                                 (dict(array="T"), ValueError)):
+            with self.assertRaises(error):
+                samples.interpolator(**arguments)
+
+
+class Calls(unittest.TestCase):
+    def test_wrong_arguments(self):
+        values = POSITIONS[:, 0]
+        for arguments, error, text in (
+                ((POSITIONS, values, PLACES[:, :2]), ValueError, r"places.*\(300, 2\).*zeros"),
+                ((POSITIONS, values, PLACES[0]), ValueError, r"places.*\(3,\)"),
+                ((POSITIONS, values[:9], PLACES), ValueError, r"values.*\(9,\).*6000"),
+                ((POSITIONS, {"a": values, "b": values[:9]}, PLACES), ValueError, r"b have.*\(9,\)"),
+                ((POSITIONS, None, PLACES), TypeError, "values are missing"),
+                ((POSITIONS, [], PLACES), ValueError, r"\(0,\)"),
+                ((POSITIONS, "T", PLACES), ValueError, '"T": give its numbers'),
+                ((POSITIONS, 1j * values, PLACES), TypeError, "complex"),
+                ((POSITIONS[:0], values[:0], PLACES), ValueError, "no samples")):
+            with self.subTest(text), self.assertRaisesRegex(error, text):
+                probe(*arguments)
+        for options, text in (
+                (dict(method="CUBIG"), "BLEND, CUBIC"), (dict(method=None), "BLEND, CUBIC"), (dict(method=9), "0 to 4"),
+                (dict(outside="far"), '"nearest", or None'), (dict(outside=True), "a number"),
+                (dict(threads=0), "threads"), (dict(gradient="yes"), "True or False"),
+                (dict(method="NEAREST", gradient=True), "no gradients")):
+            with self.subTest(text), self.assertRaisesRegex(ValueError, text):
+                probe(POSITIONS, values, PLACES, **options)
+
+    def test_progress_and_interrupts(self):
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        places = RANDOM.uniform(-1, 1, (30000, 3))
+        for call in (lambda progress: probe(POSITIONS, POSITIONS, places, progress=progress),
+                     lambda progress: Samples(POSITIONS).probe(places, POSITIONS, progress=progress)):
+            fractions = []
+            call(fractions.append)
+            self.assertEqual((fractions, fractions[-1]), (sorted(fractions), 1))
+            self.assertGreater(len(fractions), 3)
+            with self.assertRaises(KeyboardInterrupt):
+                call(lambda fraction: fraction > 0.3 and os.kill(os.getpid(), signal.SIGINT))
+            with self.assertRaises(ZeroDivisionError):
+                call(lambda fraction: fraction > 0.3 and 1 / 0)
+        samples = Samples(POSITIONS)
+        with self.assertRaisesRegex(RuntimeError, "cannot use the samples"):
+            samples.probe(places, POSITIONS, progress=lambda _: samples.probe(PLACES, POSITIONS))
+
+    @unittest.skipUnless(hasattr(os, "fork"), "there is no fork()")
+    def test_forked_children(self):
+        samples = Samples(POSITIONS)
+        expected = samples.probe(PLACES, POSITIONS)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", DeprecationWarning)  # of fork() in a process with threads
+            child = os.fork()
+        if child == 0:
+            signal.alarm(60)  # a child that waits is a failure
+            with contextlib.suppress(BaseException):
+                os._exit(0 if np.array_equal(samples.probe(PLACES, POSITIONS), expected) else 1)
+            os._exit(2)
+        self.assertEqual(os.waitpid(child, 0)[1], 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
