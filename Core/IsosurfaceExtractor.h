@@ -163,7 +163,7 @@ public:
   /// 13). Loaded values take no part. On ranks collective: each has its own places, and the arrays'
   /// numbers of its own items. The same result on any number of ranks.
   /// @param kinds null, or receives PlaceKinds for each place
-  /// @throws std::bad_alloc, Aborted, std::length_error (see NarrowBand); later calls still work
+  /// @throws std::bad_alloc, Aborted, TreeTooLarge (see NarrowBand); later calls still work
   void probe(const Execution& execution, const std::vector<Vector>& places,
     const ProbeOptions& options, const std::vector<ProbedArray>& arrays,
     std::uint8_t* kinds = nullptr);

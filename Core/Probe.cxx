@@ -5,6 +5,7 @@
 #include "Core/Places/FindNeighborhoods.h"
 #include "Core/Places/ProbePlaces.h"
 #include "Core/Ranks/ItemNumbers.h"
+#include "Core/Tree/Scaling.h"
 
 #include <algorithm>
 #include <type_traits>
@@ -12,6 +13,30 @@
 
 namespace isopoint
 {
+
+namespace
+{
+
+/// Places divided by 2^exponent, as the positions of a cloud.
+std::vector<Vector> divided(
+  const Execution& execution, const std::vector<Vector>& places, int exponent)
+{
+  std::vector<Vector> result = places;
+  if (exponent != 0)
+  {
+    forEachIndex(execution, result.size(),
+      [&](std::size_t place)
+      {
+        for (double& coordinate : result[place])
+        {
+          divide(coordinate, exponent);
+        }
+      });
+  }
+  return result;
+}
+
+} // namespace
 
 void IsosurfaceExtractor::probe(const Execution& execution, const std::vector<Vector>& places,
   const ProbeOptions& options, const std::vector<ProbedArray>& arrays, std::uint8_t* kinds)
@@ -33,7 +58,7 @@ void IsosurfaceExtractor::probe(const Execution& execution, const std::vector<Ve
       using TSample = std::decay_t<decltype(cloud.tree.samples[0])>;
       OwnNodes<TSample> nodes(execution, cloud.tree);
       forSurroundings(
-        execution, cloud.tree, nodes, options, places,
+        execution, cloud.tree, nodes, options, divided(execution, places, cloud.exponent),
         [&]() { return PlaceEvaluator(options, arrays); },
         [&](PlaceEvaluator& evaluator, std::size_t place, const SurroundingsSearch<TSample>& search)
         {
@@ -44,6 +69,7 @@ void IsosurfaceExtractor::probe(const Execution& execution, const std::vector<Ve
             kinds[place] = kind;
           }
         });
+      divideGradients(execution, arrays, places.size(), cloud.exponent);
     },
     this->Held);
   execution.progress(1.0);
@@ -56,13 +82,16 @@ Neighborhoods IsosurfaceExtractor::findNeighborhoods(
     [&](auto& cloud)
     {
       using TSample = std::decay_t<decltype(cloud.tree.samples[0])>;
-      if (this->Processes)
+      const auto find = [&](auto&& nodes)
       {
-        SharedNodes<TSample> nodes(*this->Processes, cloud.tree, cloud.begins);
-        return neighborhoodsOf(execution, cloud.tree, nodes, places, options);
-      }
-      OwnNodes<TSample> nodes(execution, cloud.tree);
-      return neighborhoodsOf(execution, cloud.tree, nodes, places, options);
+        Neighborhoods found = neighborhoodsOf(
+          execution, cloud.tree, nodes, divided(execution, places, cloud.exponent), options);
+        found.exponent = cloud.exponent;
+        return found;
+      };
+      return this->Processes
+               ? find(SharedNodes<TSample>(*this->Processes, cloud.tree, cloud.begins))
+               : find(OwnNodes<TSample>(execution, cloud.tree));
     },
     this->Held);
 }

@@ -251,8 +251,8 @@ struct isopoint_extractor
   isopoint::IsosurfaceExtractor Extractor;
   isopoint::SampleTypes Types;
   isopoint::CloudCounts Counts;
-  std::string Name;         // of the values
-  bool HasSamples = false;  // even if all are skipped
+  std::string Name;        // of the values
+  bool HasSamples = false; // even if all are skipped
   bool HasValues = false;
   std::int32_t Threads = 0; // 0: all cores
   Callbacks Calls;

@@ -188,7 +188,8 @@ isopoint_weights isopoint_neighborhoods::weights()
           this->values.push_back(share * (isOutside ? 1.0 : of[0]));
           for (std::size_t k = 1; k < laneCount; ++k)
           {
-            this->gradients.push_back(isOutside ? 0.0 : share * of[k]);
+            this->gradients.push_back(
+              isOutside ? 0.0 : std::ldexp(share * of[k], -this->found.exponent));
           }
         }
       }

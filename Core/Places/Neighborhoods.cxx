@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/Places/Neighborhoods.h"
 
+#include "Core/Tree/Scaling.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -40,6 +42,20 @@ void probeNeighborhoods(const Execution& execution, const Neighborhoods& neighbo
           : neighborhoods.weights.data() + laneCount * neighborhoods.begins[place]);
     },
     execution.progress);
+  divideGradients(execution, arrays, neighborhoods.places.size(), neighborhoods.exponent);
+}
+
+void divideGradients(const Execution& execution, const std::vector<ProbedArray>& arrays,
+  std::size_t places, int exponent)
+{
+  for (const ProbedArray& array : arrays)
+  {
+    if (array.gradients && exponent != 0)
+    {
+      forEachIndex(execution, 3 * static_cast<std::size_t>(array.components) * places,
+        [&](std::size_t i) { divide(array.gradients[i], exponent); });
+    }
+  }
 }
 
 } // namespace isopoint

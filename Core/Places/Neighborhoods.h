@@ -28,6 +28,7 @@ struct Neighborhoods
   std::vector<Vector> positions;     // that are around any place
   std::vector<std::size_t> idBegins; // of positions in `ids`, and the end
   std::vector<std::uint64_t> ids;    // of samples
+  int exponent = 0; // places and positions are those of the input divided by 2^exponent
 
   /// @param isNumbered whether to number samples by their index in `ids` in place of their ids
   void surroundings(std::size_t place, bool isNumbered, Surroundings& result) const;
@@ -38,5 +39,9 @@ struct Neighborhoods
 /// @throws Aborted, std::bad_alloc
 void probeNeighborhoods(const Execution& execution, const Neighborhoods& neighborhoods,
   const std::vector<ProbedArray>& arrays, bool areNumbered = false);
+
+/// Divides gradients at so many places by 2^exponent. @throws Aborted
+void divideGradients(const Execution& execution, const std::vector<ProbedArray>& arrays,
+  std::size_t places, int exponent);
 
 } // namespace isopoint

@@ -937,6 +937,53 @@ TEST(Library, ArraysAreInterpolatedAtPlacesAndAgainFromNeighborhoods)
   }
 }
 
+// As of isosurfaces, also where lengths to a small power overflow or underflow.
+TEST(Library, ValuesAtPlacesAreTheSameAtAllScales)
+{
+  const std::vector<double> at{ 0.5, 0.25, 0.5, -0.25, 0.5, 0.125, 9.0, 9.0, 9.0 };
+  for (const std::int32_t method : { ISOPOINT_METHOD_BLEND, ISOPOINT_METHOD_CUBIC })
+  {
+    const isopoint_probe_options options = probeOptions(method);
+    std::vector<double> expected;
+    for (const int exponent : { 0, 900, -900 })
+    {
+      SCOPED_TRACE(exponent);
+      Cloud cloud;
+      const isopoint_array array = cloud.valueArray();
+      std::vector<double> where = at;
+      for (std::vector<double>* const lengths : { &cloud.positions, &where })
+      {
+        std::for_each(lengths->begin(), lengths->end(),
+          [exponent](double& length) { length = std::ldexp(length, exponent); });
+      }
+      const Extractor extractor;
+      loadPositions(extractor, cloud);
+      const isopoint_array places = arrayOf(where, ISOPOINT_DOUBLE, 3);
+      std::vector<double> found(3);
+      std::vector<double> gradients(9);
+      const isopoint_probed result{ found.data(), gradients.data() };
+      ASSERT_EQ(isopoint_probe(extractor.get(), &places, &array, 1, &options, &result, nullptr),
+        ISOPOINT_OK);
+      for (std::size_t i = 0; i < 6; ++i)
+      {
+        found.push_back(std::ldexp(gradients[i], exponent));
+      }
+      found.erase(found.begin() + 2); // outside
+      expected = expected.empty() ? found : expected;
+      EXPECT_EQ(found, expected);
+      isopoint_neighborhoods* neighborhoods = nullptr;
+      ASSERT_EQ(isopoint_find_neighborhoods(extractor.get(), &places, &options, &neighborhoods),
+        ISOPOINT_OK);
+      std::vector<double> again(9);
+      const isopoint_probed repeated{ found.data(), again.data() };
+      ASSERT_EQ(
+        isopoint_probe_neighborhoods(neighborhoods, &array, 1, &repeated, nullptr), ISOPOINT_OK);
+      EXPECT_TRUE(std::equal(again.begin(), again.begin() + 6, gradients.begin()));
+      isopoint_destroy_neighborhoods(neighborhoods);
+    }
+  }
+}
+
 TEST(Library, TheNearestSampleKeepsItsType)
 {
   const Cloud cloud;
