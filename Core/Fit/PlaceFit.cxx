@@ -138,7 +138,7 @@ void PlaceFitter::flatten(const std::vector<Vector>& offsets)
     covariance += this->Weights[i] * offset * offset.transpose();
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-  const Eigen::Vector3d values = solver.eigenvalues(); // ascending
+  const Eigen::Vector3d& values = solver.eigenvalues(); // ascending
   if (values[0] > minPivot * values[2])
   {
     return;
