@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+import sys
 from typing import TYPE_CHECKING, Any
 
 from . import _library
@@ -52,11 +53,13 @@ else:
         for module in map(_module, _MODULES[name]):
             if hasattr(module, name):
                 return getattr(module, name)
-        # An AttributeError would lose its text in "from scatteredisopoints import ...".
+        # "from scatteredisopoints import ..." replaces the text of an AttributeError; hasattr() raises all others.
+        is_import = sys._getframe(1).f_code.co_name == "_handle_fromlist"  # of importlib
+        kind = ImportError if is_import else AttributeError
         if "_vtk" in _MODULES[name] and importlib.util.find_spec("vtkmodules") is None:
-            raise ImportError(f"{name} needs VTK: pip install vtk")
-        raise ImportError(f"{name} needs classes that are compiled for this interpreter's VTK: build this"
-                          " project with VTK or ParaView, as docs/installing.md in its source says.")
+            raise kind(f"{name} needs VTK: pip install vtk")
+        raise kind(f"{name} needs classes that are compiled for this interpreter's VTK: build this"
+                   " project with VTK or ParaView, as docs/installing.md in its source says.")
 
     def __dir__():
         return sorted({*globals(), *_found()})

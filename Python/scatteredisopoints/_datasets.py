@@ -78,7 +78,8 @@ def leaves(data: Any) -> Iterator[Any]:
 
 def state_of(data: Any) -> tuple:
     """A value that changes when VTK notices a change of the data object, and when points or cells are blanked."""
-    state = []
+    fields = data.GetFieldData()  # a composite's own, which the output has
+    state = [(fields.__this__, fields.GetMTime())]
     for leaf in leaves(data):
         times = [leaf.GetMTime()]
         if leaf.IsA("vtkDataSet"):  # blanking changes flags in place

@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _library
 from ._arrays import column, readable
-from ._options import thread_count
+from ._options import number_of, thread_count
 from ._progress import Progress, shown_progress
 
 
@@ -117,12 +117,13 @@ class Isosurface:
         parts = [("points", self.points), ("normals", self.normals),
                  *((name, self.splat_shapes[name]) for name in ("SplatAxis", "SplatPolygon"))]
         threads = self._threads if threads is None else threads
+        scale = number_of("scale", scale, 1.0)
         pointer = c_void_p()
         _library.run(_library.create_surface, *(readable(*part) for part in parts), byref(pointer))
         surface = _library.Surface(pointer.value)
         _library.run(_library.set_surface_threads, surface, thread_count(threads))
         _library.run_with(
-            _library.Callbacks(**callbacks), surface, _library.make_splat_mesh, float(scale))
+            _library.Callbacks(**callbacks), surface, _library.make_splat_mesh, scale)
         point_of_vertex = _library.view(surface, _library.SPLAT_VERTEX_POINTS)
         arrays = {name: _at_vertices(surface, column(name, array, len(self)), point_of_vertex)
                   for name, array in self.arrays.items()}

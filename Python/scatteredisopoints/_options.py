@@ -67,7 +67,7 @@ def make_options(triangles: bool, given: Mapping[str, Any]) -> Options:
         elif name == "keep_tree":
             options.keep_tetrahedra = int(switch(name, value))
         else:
-            setattr(options, name, _number(name, constant(name, value), getattr(options, name)))
+            setattr(options, name, number_of(name, constant(name, value), getattr(options, name)))
     return options
 
 
@@ -89,11 +89,14 @@ def make_probe_options(method: Any, outside: Any) -> ProbeOptions:
 
 def thread_count(threads: Optional[int]) -> int:
     """The library's number for at most so many threads; None: all available cores. Raises ValueError for fewer
-    than one."""
+    than one, TypeError for other types."""
     if threads is None:
         return 0
+    remedy = "give a whole number, 1 or more, or None for all cores"
+    if not hasattr(threads, "__index__"):
+        raise TypeError(f"threads cannot be {threads!r}: {remedy}")
     if isinstance(threads, bool) or operator.index(threads) < 1:
-        raise ValueError(f"threads are {threads}: give 1 or more, or None for all cores")
+        raise ValueError(f"threads are {threads}: {remedy}")
     return min(operator.index(threads), 2**31 - 1)
 
 
@@ -121,8 +124,8 @@ def switch(name: str, value: Any) -> bool:
     return bool(value)
 
 
-def _number(name: str, value: Any, default: Any) -> Any:
-    """Converts a value to the type of the default."""
+def number_of(name: str, value: Any, default: Any) -> Any:
+    """Converts a value to the type of the default. Raises ValueError for values that are no numbers."""
     if name.startswith(("compute_", "drop_", "regularize")):
         return int(switch(name, value))
     try:

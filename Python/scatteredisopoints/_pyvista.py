@@ -22,6 +22,10 @@ from ._samples import Samples
 from ._splats import polygons_of
 
 
+# Parameters of the accessor by those of contour().
+_NAMES = {"values": "scalars", "isovalues": "isosurfaces", "progress": "progress_bar"}
+
+
 @pv.register_dataset_accessor("scattered", pv.DataObject)
 class ScatteredAccessor:
     """Isosurfaces and values of points without a mesh: ``dataset.scattered.contour()``.
@@ -91,11 +95,16 @@ class ScatteredAccessor:
         >>> surface.is_manifold
         True
         """
+        for name in options.keys() & _NAMES.keys():
+            raise TypeError(f"unknown option {name}: did you mean {_NAMES[name]}?")
         keeps = options.get("keep_tree", True)
         samples = self._load(scalars, preference, progress_bar, threads, keeps)
         if isinstance(isosurfaces, (int, np.integer)) and not isinstance(isosurfaces, bool):
-            if isosurfaces < 0 or (rng is not None and np.shape(rng) != (2,)):
-                raise ValueError("isosurfaces are a number, 0 or more, and rng has two values, least and greatest")
+            if isosurfaces < 0:
+                raise ValueError(f"isosurfaces cannot be {isosurfaces}: give their number, 0 or more, or a list of"
+                                 " isovalues")
+            if rng is not None and (np.shape(rng) != (2,) or np.asarray(rng).dtype.kind not in "fiu"):
+                raise ValueError(f"rng cannot be {rng!r}: rng has two values, the least and the greatest isovalue")
             count = int(isosurfaces)
             isosurfaces = (np.linspace(*samples.range, count + 2)[1:-1].tolist() if rng is None
                            else np.linspace(rng[0], rng[1], count).tolist())

@@ -24,12 +24,19 @@ _ANGLES = 2.0 * np.pi * np.arange(8) / 8
 OCTAGON = np.stack([np.cos(_ANGLES), np.sin(_ANGLES), *np.zeros((3, 8))], axis=-1).ravel()
 
 
+class NoNormalsError(ValueError):
+    """Points have no normals."""
+
+    def __init__(self):
+        super().__init__("The points have no normals: extract them with ComputeNormals.")
+
+
 def polygons_of(
     data: Any, radius_array: Optional[str], radius: float, scale: float, threads: Optional[int] = None,
     **callbacks: Any,
 ) -> tuple[Any, str]:
     """The triangles that show the points of a data set, and a warning or ""; see vtkIsopointSplatPolygons.
-    Callbacks are those of _library.Callbacks. Raises ValueError if the points have no normals."""
+    Callbacks are those of _library.Callbacks. Raises NoNormalsError."""
     if not data.IsA("vtkDataSet"):
         raise TypeError(f"A {data.GetClassName()} has no points of its own: pass its blocks, or combine"
                         " them first.")
@@ -38,7 +45,7 @@ def polygons_of(
     active = attributes.GetNormals()
     normals = _numbers(attributes.GetArray("Normals") if active is None else active, len(points), 3)
     if normals is None and len(points) > 0:
-        raise ValueError("The points have no normals: extract them with ComputeNormals.")
+        raise NoNormalsError
     normals = np.zeros((0, 3)) if normals is None else normals
     directions = normals.astype(np.float64)
     directions /= np.maximum(np.linalg.norm(directions, axis=1, keepdims=True), 1e-300)

@@ -8,11 +8,12 @@ document them. docs/python.md lists the differences.
 from __future__ import annotations
 
 import errno
+import math
 import re
 from typing import Any, Callable, Optional
 
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
-from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkVersion
+from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkVersion, vtkWeakReference
 from vtkmodules.vtkCommonDataModel import (
     vtkCompositeDataSet, vtkDataObject, vtkMultiBlockDataSet, vtkPartitionedDataSetCollection, vtkPolyData)
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkStreamingDemandDrivenPipeline
@@ -24,7 +25,7 @@ from ._arrays import CELL, POINT
 from ._options import CONSTANTS, option_names, property_name
 from ._properties import Property, properties_of
 from ._samples import Extracted, Samples
-from ._splats import polygons_of
+from ._splats import NoNormalsError, polygons_of
 
 UNKNOWN_ERROR = 40000 + 99  # vtkErrorCode::UnknownError
 
@@ -33,7 +34,8 @@ _COUNTS = ("Samples", "ExtractedPoints", "SkippedSamples", "UnprojectedPoints", 
 
 
 def _with_properties(name: str, *others: str):
-    """Gives a class the methods SetX, GetX, XOn and XOff of all properties X of a proxy, except some."""
+    """Gives a class the methods SetX, GetX, XOn and XOff of all properties X of a proxy, except some. Methods
+    that the class has already stay."""
 
     def add(cls: Any) -> Any:
         cls.PROPERTIES = {property_.name: property_ for property_ in properties_of(name)
@@ -49,11 +51,7 @@ def _add_methods(cls: type, property_: Property) -> None:
     name = property_.name
 
     def set_(self, value):
-        # As in the compiled class, an angle out of range is an error in the next update.
-        clamped = float(value) if name == "Angle" else property_.clamped(value)
-        if self._values[name] != clamped:
-            self._values[name] = clamped
-            self.Modified()
+        self._set(name, value)
 
     def get(self):
         return self._values[name]
@@ -62,6 +60,8 @@ def _add_methods(cls: type, property_: Property) -> None:
     if property_.is_switch:
         methods.update({f"{name}On": lambda self: set_(self, 1), f"{name}Off": lambda self: set_(self, 0)})
     for method, function in methods.items():
+        if method in vars(cls):
+            continue
         function.__name__, function.__qualname__ = method, f"{cls.__name__}.{method}"
         setattr(cls, method, function)
 
@@ -104,6 +104,14 @@ class _Algorithm(VTKPythonAlgorithmBase):
         super().__init__(nInputPorts=1, nOutputPorts=1, outputType="vtkDataObject")
         self._values = {name: property_.default for name, property_ in self.PROPERTIES.items()}
         self._error_code = 0
+
+    def _set(self, name: str, value: Any) -> None:
+        """Gives a property the nearest value in its range."""
+        # As in the compiled class, an angle out of range is an error in the next update.
+        clamped = float(value) if name == "Angle" else self.PROPERTIES[name].clamped(value)
+        if self._values[name] != clamped:
+            self._values[name] = clamped
+            self.Modified()
 
     def FillInputPortInformation(self, _port, info):
         info.Set(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet")
@@ -179,7 +187,7 @@ class _Contour(_Algorithm):
         self._contours.SetValue(0, 0.0)
         self._kept: dict[int, tuple[Any, Samples]] = {}  # by block number
         self._reported: set[str] = set()  # causes
-        self._reported_of: Any = None
+        self._reported_of = vtkWeakReference()
         self._counts = dict.fromkeys(_COUNTS, 0)
 
     def SetValue(self, i: int, value: float) -> None:
@@ -237,6 +245,9 @@ class _Contour(_Algorithm):
                 output.ShallowCopy(extracted.isosurface.polydata)
                 messages += extracted.messages
             is_kept = self._values["KeepTree"]
+        except BaseException:
+            self._counts = dict.fromkeys(_COUNTS, 0)
+            raise
         finally:
             if not is_kept:
                 self._kept.clear()
@@ -245,22 +256,23 @@ class _Contour(_Algorithm):
     def _contour_blocks(self, data: Any, output: Any) -> list[_library.Message]:
         """Contours each block. Returns the messages about all."""
         count = sum(1 for _ in _datasets.leaves(data))
-        found: list[Extracted] = []
+        found: dict[int, Extracted] = {}  # by block number
         lacking: list[_datasets.NoSamplesError] = []
 
         def contour(block: Any, number: int) -> Optional[vtkPolyData]:
             try:
-                found.append(self._contour_one(block, number, (number / count, (number + 1) / count)))
-                return found[-1].isosurface.polydata
+                found[number] = self._contour_one(block, number, (number / count, (number + 1) / count))
+                return found[number].isosurface.polydata
             except _datasets.NoSamplesError as error:
                 lacking.append(error)
                 return None
 
         _fill(output, data, contour)
+        self._kept = {number: self._kept[number] for number in found}
         lacking.sort(key=lambda error: error.without_array == 0)  # those that name arrays come first
         if not found:
             raise lacking[0] if lacking else _datasets.NoSamplesError()
-        first, *others = found
+        first, *others = found.values()
         for other in others:
             _library.run(_library.join_messages, first.surface, other.surface)
         messages = first.messages + [message for other in others for message in other.own_messages]
@@ -320,8 +332,9 @@ class _Contour(_Algorithm):
     def _report_messages(self, messages: list[_library.Message]) -> None:
         """Reports each cause once while it persists for the same input."""
         producer = self.GetInputAlgorithm() if self.GetNumberOfInputConnections(0) else None
-        before = self._reported if self._reported_of is producer else set()
-        self._reported_of, self._reported = producer, set()
+        before = self._reported if self._reported_of.Get() is producer else set()
+        self._reported_of.Set(producer)
+        self._reported = set()
         for message in messages:
             if message.cause not in before | self._reported:
                 self._report("WarningEvent" if message.is_warning else "MessageEvent",
@@ -363,6 +376,12 @@ class vtkIsopointSplatPolygons(_Algorithm):
     def GetRadiusArrayName(self) -> Optional[str]:
         return self._radius_array
 
+    def SetRadiusScale(self, scale: float) -> None:
+        if scale < 0:
+            self._report("WarningEvent", f"The radius scale {scale:g} is negative: nothing is drawn. Set it to 1 for"
+                         " splats that close the surface.")
+        self._set("RadiusScale", scale)
+
     def _output_class(self, data: Any) -> type:
         if not isinstance(data, vtkCompositeDataSet):
             return vtkPolyData
@@ -372,21 +391,45 @@ class vtkIsopointSplatPolygons(_Algorithm):
                 if is_new and data.IsA("vtkPartitionedDataSetCollection") else vtkMultiBlockDataSet)
 
     def _make(self, data: Any, output: Any) -> None:
+        problems: set[str] = set()  # each once, of all blocks
         if isinstance(output, vtkPolyData):
-            output.ShallowCopy(self._polygons(data, (0.0, 1.0)))
-            return
-        count = sum(1 for _ in _datasets.leaves(data))
-        _fill(output, data,
-              lambda block, number: self._polygons(block, (number / count, (number + 1) / count)))
-
-    def _polygons(self, data: Any, part: tuple[float, float]) -> vtkPolyData:
-        if data.GetNumberOfPoints() == 0:
-            empty = vtkPolyData()
-            empty.GetFieldData().ShallowCopy(data.GetFieldData())
-            return empty
-        polygons, problem = polygons_of(
-            data, self._radius_array, self._values["Radius"], self._values["RadiusScale"],
-            **self._callbacks(part))
-        if problem:
+            output.ShallowCopy(self._polygons(data, (0.0, 1.0), problems))
+        else:
+            self._make_blocks(data, output, problems)
+        for problem in sorted(problems):
             self._report("WarningEvent", problem)
+
+    def _make_blocks(self, data: Any, output: Any, problems: set[str]) -> None:
+        """Blocks without normals have no polygons, which is an error only if no block has normals."""
+        count = sum(1 for _ in _datasets.leaves(data))
+        lacking: list[bool] = []  # of each block with points
+
+        def make(block: Any, number: int) -> vtkPolyData:
+            try:
+                polygons = self._polygons(block, (number / count, (number + 1) / count), problems)
+                lacking.extend([False] * (block.GetNumberOfPoints() > 0))
+                return polygons
+            except NoNormalsError as error:
+                lacking.append(True)
+                problems.add(str(error))
+                return _without_polygons(block)
+
+        _fill(output, data, make)
+        if lacking and all(lacking):
+            raise NoNormalsError
+
+    def _polygons(self, data: Any, part: tuple[float, float], problems: set[str]) -> vtkPolyData:
+        scale = self._values["RadiusScale"]
+        if data.GetNumberOfPoints() == 0 or not 0 < scale < math.inf:
+            return _without_polygons(data)
+        polygons, problem = polygons_of(
+            data, self._radius_array, self._values["Radius"], scale, **self._callbacks(part))
+        if problem:
+            problems.add(problem)
         return polygons
+
+
+def _without_polygons(data: Any) -> vtkPolyData:
+    empty = vtkPolyData()
+    empty.GetFieldData().ShallowCopy(data.GetFieldData())
+    return empty

@@ -35,6 +35,7 @@ DIFFERENCES = (
     "Each piece of the output is the whole output.",
     "Samples of blocks without the array have a message of their own.",
     'Messages call ghosts "excluded".',
+    "`vtkIsopointSplatPolygons`: points without normals have no polygons.",
 )
 
 POINTS, CELLS, ANY = (vtkDataObject.FIELD_ASSOCIATION_POINTS, vtkDataObject.FIELD_ASSOCIATION_CELLS,
@@ -350,6 +351,20 @@ class Filters:
                     self.assertEqual(kept.GetNumberOfSkippedSamples(), fresh.GetNumberOfSkippedSamples())
                     assert_same(self, kept.GetOutputDataObject(0), fresh.GetOutputDataObject(0))
 
+    def test_field_data_of_composites_change(self):
+        blocks = blocks_of(cloud(500), cloud(300))
+        filter_ = configured(self.kinds[0], blocks, [0.7])
+        for change, expected in (
+                (lambda: blocks.GetFieldData().AddArray(named("TimeValue", [1.5])), 1.5),
+                (lambda: blocks.GetFieldData().AddArray(named("TimeValue", [2.5])), 2.5),
+                (lambda: filter_.SetInputDataObject(blocks_of(*leaves_of(blocks))), None),
+                (lambda: filter_.SetInputDataObject(blocks), 2.5)):
+            change()
+            blocks.Modified()
+            filter_.Update()
+            found = filter_.GetOutput().GetFieldData().GetArray("TimeValue")
+            self.assertEqual(found and found.GetValue(0), expected)
+
     def test_polygons_of_blocks(self):
         """Leaves that are no data sets have none."""
         isopoints = updated(self.kinds[0], cloud(), [0.7]).GetOutput()
@@ -357,6 +372,46 @@ class Filters:
         first, second = leaves_of(output, skips_empty=False)
         self.assertGreater(first.GetNumberOfPolys(), isopoints.GetNumberOfPoints())
         self.assertIsNone(second)
+
+    def test_blocks_without_normals_empty_no_others(self):
+        """Each problem is one warning for all blocks."""
+        isopoints = updated(self.kinds[0], cloud(), [0.7]).GetOutput()
+        isopoints.GetFieldData().AddArray(named("TimeValue", [1.5]))
+        expected = updated(self.module.vtkIsopointSplatPolygons, isopoints).GetOutput()
+        bare = [cloud_of(positions_in(isopoints)) for _ in range(2)]
+        bare[0].GetFieldData().AddArray(isopoints.GetFieldData().GetArray(0))
+        filter_ = configured(self.module.vtkIsopointSplatPolygons, blocks_of(bare[0], isopoints, bare[1]))
+        texts = observed(filter_)
+        filter_.Update()
+        self.assertEqual((texts["ErrorEvent"], filter_.GetErrorCode()), ([], 0))
+        self.assert_one(texts["WarningEvent"], "normals")
+        first, second, _ = leaves_of(filter_.GetOutputDataObject(0))
+        assert_same(self, second, expected)
+        self.assertEqual(first.GetFieldData().GetArray("TimeValue").GetValue(0), 1.5)
+        is_octahedra = not self.differs("`vtkIsopointSplatPolygons`: points without normals have no polygons.")
+        self.assertEqual(first.GetNumberOfPolys() > 0, is_octahedra)
+        filter_.SetInputDataObject(blocks_of(*bare))
+        filter_.Update()
+        self.assertEqual(len(texts["ErrorEvent"]), int(not is_octahedra))
+        self.assert_one(texts["WarningEvent"][:-1] if is_octahedra else texts["WarningEvent"], "normals")
+
+    def test_radius_scales_that_draw_nothing(self):
+        """A negative one counts as 0. The filter works again with another one."""
+        isopoints = updated(self.kinds[0], cloud(), [0.7]).GetOutput()
+        isopoints.GetFieldData().AddArray(named("TimeValue", [1.5]))
+        filter_ = configured(self.module.vtkIsopointSplatPolygons, isopoints)
+        texts = observed(filter_)
+        for scale in (0.0, -1.0, np.nan, np.inf, 1.0):
+            filter_.SetRadiusScale(scale)
+            filter_.Update()
+            output = filter_.GetOutput()
+            with self.subTest(scale=scale):
+                self.assertEqual((filter_.GetErrorCode(), output.GetNumberOfPoints() > 0), (0, scale == 1.0))
+                self.assertEqual(output.GetFieldData().GetArray("TimeValue").GetValue(0), 1.5)
+                self.assertEqual(filter_.GetRadiusScale() == 0.0, scale <= 0)
+        self.assertEqual(texts["ErrorEvent"], [])
+        self.assert_one(texts["WarningEvent"], "The radius scale -1 is negative: nothing is drawn. Set it to 1 for"
+                        " splats that close the surface.")
 
     # Arrays
 
@@ -553,6 +608,7 @@ class Filters:
         without_points = set_all(vtkUnstructuredGrid())
         without_points.InsertNextCell(VTK_EMPTY_CELL, 0, [])
         add(without_points, CELLS, "x", np.zeros(1))
+        vectors = cloud_of(positions_in(data), positions_in(data), "distance")
         offer = "distance, x, position, names, short"
         for use, words in (
                 (lambda f: chosen(f, "g"), ("no point array", '"g"', "Choose", offer)),
@@ -569,6 +625,7 @@ class Filters:
                 (lambda f: f.SetValue(1, np.nan), ("not a number", "Choose")),
                 (lambda f: f.SetInputDataObject(unloaded), ("load", "reader")),
                 (lambda f: f.SetInputDataObject(vtkPolyData()), ("no points",)),
+                (lambda f: f.SetInputDataObject(blocks_of(data, vectors)), ('"distance"', "3 components")),
                 (lambda f: f.SetInputDataObject(blocks_of(vtkPolyData(), vtkTable())), ("no points",)),
                 (lambda f: f.SetInputDataObject(vtkMultiBlockDataSet()), ("no points",)),
                 (lambda f: chosen(set_all(f, InputDataObject=without_points), "x", CELLS), ("cells, but no points",))):
@@ -618,6 +675,36 @@ class Filters:
                 del filter_
                 self.assertIsNone(died(), kind)
                 self.assertGreater(output.GetNumberOfElements(POINTS), 100)
+        finally:
+            gc.enable()
+
+    def test_inputs_and_trees_die(self):
+        """A filter keeps no former input alive, and no tree of a block that is gone."""
+        alive = set()
+
+        def watched_cloud():
+            data = cloud(300)
+            for watched in (data, data.GetPoints().GetData()):
+                number = watched.GetAddressAsString("")
+                alive.add(number)
+                watched.AddObserver("DeleteEvent", lambda *_, number=number: alive.remove(number))
+            return data
+
+        gc.disable()
+        try:
+            for kind in self.kinds:
+                filter_ = updated(kind, watched_cloud(), [0.7])
+                filter_.SetInputDataObject(watched_cloud())
+                self.assertLessEqual(len(alive), 3)  # the tree may keep the former positions until the update
+                filter_.Update()
+                self.assertEqual(len(alive), 2)
+                for count in (20, 1):
+                    filter_.SetInputDataObject(blocks_of(*(watched_cloud() for _ in range(count))))
+                    filter_.ContourBlocksOn()
+                    filter_.Update()
+                    self.assertEqual(len(alive), 2 * count)
+                del filter_
+                self.assertEqual(alive, set())
         finally:
             gc.enable()
 

@@ -208,7 +208,9 @@ class Arrays(unittest.TestCase):
             with self.subTest(text=text), self.assertRaisesRegex(error, text):
                 contour(*arguments)
         for options, error, text in (
-                (dict(threads=0), ValueError, "threads"), (dict(threads=2.5), TypeError, "float"),
+                (dict(threads=0), ValueError, "threads"),
+                *((dict(threads=wrong), TypeError, f"threads cannot be {wrong!r}: give a whole number")
+                  for wrong in (2.0, "4")),
                 (dict(progress=3), TypeError, "progress"), (dict(triangles="no"), ValueError, "triangles"),
                 *((dict(projection=wrong), ValueError, "projection") for wrong in (True, "cubes", 1.5)),
                 (dict(arrays={"a": values[:3]}), ValueError, "shape"), (dict(arrays=[values]), TypeError, "mapping"),
@@ -246,6 +248,9 @@ class Results(unittest.TestCase):
             self.assertAlmostEqual(areas.sum() / (4 * np.pi * 0.3**2), scale**2, delta=0.02)
         for wrong in (0.0, -1.0, np.nan, np.inf):
             with self.assertRaisesRegex(ValueError, "The scale of splats"):
+                surface.splats(wrong)
+        for wrong in ("a", None, [1.0, 2.0]):
+            with self.assertRaisesRegex(ValueError, "scale cannot be .*: it is a number"):
                 surface.splats(wrong)
         for wrong in (np.ones((len(surface), 2, 3)), np.ones(3)):
             surface.arrays["wrong"] = wrong
@@ -690,9 +695,12 @@ class Imports(unittest.TestCase):
         for name in set(scatteredisopoints._MODULES) - set(scatteredisopoints.__all__):
             is_in_python = not has_vtk and name in (
                 "vtkIsopointSplatPolygons", "vtkScatteredIsopointFilter", "vtkScatteredIsosurfaceFilter")
-            with self.assertRaisesRegex(ImportError, f"{name} needs " + (
-                    "VTK: pip install vtk$" if is_in_python else "classes that are compiled")):
+            text = f"{name} needs " + ("VTK: pip install vtk$" if is_in_python else "classes that are compiled")
+            with self.assertRaisesRegex(ImportError, text):
                 exec(f"from scatteredisopoints import {name}")
+            with self.assertRaisesRegex(AttributeError, text):
+                getattr(scatteredisopoints, name)
+            self.assertFalse(hasattr(scatteredisopoints, name))
 
 
 def run_together(*functions):

@@ -78,10 +78,11 @@ class Accessor(unittest.TestCase):
         inner = np.linspace(data["distance"].min(), data["distance"].max(), 12)[1:-1]
         self.assertLessEqual(set(np.unique(surface["distance"])), set(inner))
         self.assertEqual(len(np.unique(data.scattered.contour(3, "count")["count"])), 3)
-        with self.assertRaisesRegex(ValueError, "rng has two values"):
-            data.scattered.contour(3, rng=(1, 2, 3))
-        with self.assertRaisesRegex(ValueError, "rng has two values"):
-            data.scattered.contour(3, rng=5)
+        for wrong in ((1, 2, 3), 5, ("a", "b")):
+            with self.assertRaisesRegex(ValueError, "rng has two values"):
+                data.scattered.contour(3, rng=wrong)
+        with self.assertRaisesRegex(ValueError, "^isosurfaces cannot be -1: give their number, 0 or more, or a list"):
+            data.scattered.contour(-1)
 
     def test_all_kinds_of_data(self):
         image = grid()
@@ -134,6 +135,9 @@ class Accessor(unittest.TestCase):
             np.asarray(data.points), np.asarray(data["distance"]), 0.3, triangles=True).points.shape[0])
         blocks = pv.MultiBlock([data])
         before = blocks.scattered.contour([0.3], "distance").n_points
+        for time in (1.0, 2.0):
+            blocks.add_field_data([time], "time")
+            self.assertEqual(blocks.scattered.contour([0.3], "distance").field_data["time"], [time])
         data.points[:, 0] *= 2.0
         self.assertNotEqual(blocks.scattered.contour([0.3], "distance").n_points, before)
 
@@ -196,6 +200,7 @@ class Accessor(unittest.TestCase):
                 (data, ["place"], {}, ValueError, "3 components"),
                 (data, [np.zeros(3)], {}, ValueError, "3 values.*20000"),
                 (pv.PolyData(data.points), [], {}, ValueError, "scalars"), (data, [], dict(gaps=1), TypeError, "gaps"),
+                (data, [], dict(progress=True), TypeError, "unknown option progress: did you mean progress_bar"),
                 (data, [], dict(arrays={"a": data["count"]}), TypeError, "add them to the data set")):
             with self.assertRaisesRegex(error, text):
                 source.scattered.contour([0.3], *arguments, **options)
