@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the benchmarks share: options, tables, clouds, files, filters, meshes, and time and memory."""
+"""What the benchmarks share: options and tables (tables.py), clouds, files, filters, meshes, and time and memory."""
 
-import argparse
 import ctypes
 import pathlib
 import sys
@@ -9,6 +8,7 @@ import time
 
 import numpy as np
 from scatteredisopoints import vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
+from tables import add_numbers, parser_of, print_head, print_row  # noqa: F401
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkSMPTools
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
@@ -25,19 +25,6 @@ OF_ONE_FILTER = {"ComputeSplats": POINTS, "Regularize": TRIANGLES}  # properties
 NOISE = 0.05  # standard deviation, in mean rises of the values between neighbors
 
 
-def parser_of(text):
-    """text: the docstring of a script."""
-    return argparse.ArgumentParser(description=text, formatter_class=argparse.RawDescriptionHelpFormatter)
-
-
-def add_numbers(parser, **defaults):
-    """Options --name of numbers, or of lists of numbers."""
-    for name, default in defaults.items():
-        is_list = isinstance(default, list)
-        parser.add_argument("--" + name, type=type(default[0] if is_list else default), default=default,
-                            nargs="*" if is_list else None, help=f"default: {default}")
-
-
 def add_files(parser, *names):
     parser.add_argument("--file", nargs=len(names), action="append", default=[], metavar=names, help="also a file")
 
@@ -45,14 +32,6 @@ def add_files(parser, *names):
 def set_threads(threads):
     vtkSMPTools.SetBackend("STDThread")
     vtkSMPTools.Initialize(threads)
-
-
-def print_head(*columns):
-    print("|", " | ".join(columns), "|\n" + "|---" * len(columns) + "|", flush=True)
-
-
-def print_row(*cells):
-    print("|", " | ".join(map(str, cells)), "|", flush=True)
 
 
 def name_of(path):
