@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkSMIsopointRepresentationDomain.h"
 
+#include "vtkSMIsopointSourceProxy.h"
+
 #include "vtkCommand.h"
 #include "vtkDataObject.h"
 #include "vtkObjectFactory.h"
@@ -10,6 +12,7 @@
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
 #include "vtkSMStringVectorProperty.h"
+#include "vtkSMViewProxy.h"
 
 #include <algorithm>
 #include <cstring>
@@ -83,6 +86,7 @@ void vtkSMIsopointRepresentationDomain::Update(vtkSMProperty* requestingProperty
     }
   }
   this->OfferSplats();
+  this->SetLateDefault(part->GetTrueParentProxy());
 }
 
 void vtkSMIsopointRepresentationDomain::OfferSplats()
@@ -97,6 +101,7 @@ void vtkSMIsopointRepresentationDomain::OfferSplats()
   if (this->HasSplats)
   {
     types.insert(std::lower_bound(types.begin(), types.end(), splats), splats);
+    vtkSMIsopointSourceProxy::LoadInTrace();
   }
   this->Types->SetElements(types);
 }
@@ -117,18 +122,53 @@ void vtkSMIsopointRepresentationDomain::NoticeSplats()
   this->Source = source;
 }
 
+void vtkSMIsopointRepresentationDomain::SetLateDefault(vtkSMProxy* representation)
+{
+  vtkPVDataInformation* const data = this->GetInputDataInformation("Input");
+  if (!this->EmptyDefault || isEmpty(data))
+  {
+    return;
+  }
+  vtkSMPropertyHelper type(representation, "Representation");
+  const bool isUnchanged = type.GetAsString() == *this->EmptyDefault;
+  this->EmptyDefault.reset();
+  if (!isUnchanged || !AreIsopoints(data))
+  {
+    return;
+  }
+  type.Set(splats);
+  representation->UpdateVTKObjects();
+  // The points may come in an update of the view, which does not notice this change.
+  for (unsigned int i = 0; i < representation->GetNumberOfConsumers(); ++i)
+  {
+    if (auto* const view = vtkSMViewProxy::SafeDownCast(representation->GetConsumerProxy(i)))
+    {
+      view->Update();
+    }
+  }
+}
+
 int vtkSMIsopointRepresentationDomain::SetDefaultValues(
   vtkSMProperty* property, bool usesUncheckedValues)
 {
   vtkPVDataInformation* const data = this->GetInputDataInformation("Input");
   this->NoticeSplats();
   vtkSMProxy* const part = property->GetParent();
-  if (!part || (!AreIsopoints(data) && !(isEmpty(data) && this->HasSplats)))
+  if (!part)
   {
     return 0;
   }
   vtkSMPropertyHelper helper(part->GetTrueParentProxy(), "Representation");
   helper.SetUseUnchecked(usesUncheckedValues);
+  if (isEmpty(data) && !this->HasSplats)
+  {
+    this->EmptyDefault = helper.GetAsString();
+    return 0;
+  }
+  if (!isEmpty(data) && !AreIsopoints(data))
+  {
+    return 0;
+  }
   helper.Set(splats);
   return 1;
 }

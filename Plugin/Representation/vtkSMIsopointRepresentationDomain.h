@@ -6,7 +6,8 @@
  * A domain for a property of the representation's proxy; it sets the property "Representation" of
  * the proxy around it. For data without splats, it keeps the default and removes the type from the
  * list "RepresentationTypesInfo". Empty data have splats if the input had splats before, or if it
- * is the filter that makes them.
+ * is the filter that makes them. For other empty data, the default waits for the first points, and
+ * is not set then if the type was changed meanwhile. Traces load the plugin if splats are offered.
  *
  * The required property "Input" provides the data.
  */
@@ -16,6 +17,9 @@
 #include "vtkSMDomain.h"
 #include "vtkScatteredIsopointRepresentationsModule.h" // for the export macro
 #include "vtkWeakPointer.h"
+
+#include <optional> // for the type that is replaced
+#include <string>   // for the same
 
 class vtkPVDataInformation;
 class vtkSMProxy;
@@ -54,9 +58,13 @@ private:
   /// Finds out whether the input has splats.
   void NoticeSplats();
 
+  /// Sets the default that waited for the first points.
+  void SetLateDefault(vtkSMProxy* representation);
+
   vtkWeakPointer<vtkSMStringVectorProperty> Types; // offered types, in the order of their names
   vtkWeakPointer<vtkSMProxy> Source;               // the input
   bool HasSplats = false;                          // whether it has splats, as far as known
+  std::optional<std::string> EmptyDefault;         // the default type of data that are empty yet
 
   vtkSMIsopointRepresentationDomain(const vtkSMIsopointRepresentationDomain&) = delete;
   void operator=(const vtkSMIsopointRepresentationDomain&) = delete;

@@ -33,10 +33,15 @@ std::string findPluginFile()
   return {};
 }
 
-/// Makes the active trace load the plugin, at its beginning: classes that Python makes of
-/// representations before lack the properties of splats.
-void traceLoading(const std::string& file)
+} // namespace
+
+void vtkSMIsopointSourceProxy::LoadInTrace()
 {
+  const std::string file = vtkSMTrace::GetActiveTracer() ? findPluginFile() : "";
+  if (file.empty())
+  {
+    return;
+  }
   std::ostringstream script;
   script << R"python(
 def trace_loading(file):
@@ -45,15 +50,15 @@ def trace_loading(file):
     load = ["# load the plugin of Scattered Isopoints, unless it is loaded",
             "if 'ScatteredIsopoints' not in globals():", f"    LoadPlugin({file!r}, ns=globals())"]
     if load[0] not in lines:
-        start = lines.index("from paraview.simple import *") + 1
+        begin = "from paraview.simple import *"
+        # later parts of a trace, after a reset of its output, lack this line
+        start = lines.index(begin) + 1 if begin in lines else 0
         lines[start:start] = load
 
 trace_loading()python"
          << std::quoted(file) << ")\ndel trace_loading\n";
   vtkPythonInterpreter::RunSimpleString(script.str().c_str());
 }
-
-} // namespace
 
 void vtkSMIsopointSourceProxy::AddConsumer(vtkSMProperty* property, vtkSMProxy* consumer)
 {
@@ -69,10 +74,9 @@ void vtkSMIsopointSourceProxy::AddConsumer(vtkSMProperty* property, vtkSMProxy* 
 
 void vtkSMIsopointSourceProxy::CreateVTKObjects()
 {
-  const std::string file = findPluginFile();
-  if (!this->ObjectsCreated && vtkSMTrace::GetActiveTracer() && !file.empty())
+  if (!this->ObjectsCreated)
   {
-    traceLoading(file);
+    vtkSMIsopointSourceProxy::LoadInTrace();
   }
   this->Superclass::CreateVTKObjects();
 }

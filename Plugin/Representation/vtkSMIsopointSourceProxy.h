@@ -19,6 +19,12 @@ public:
   static vtkSMIsopointSourceProxy* New();
   vtkTypeMacro(vtkSMIsopointSourceProxy, vtkSMSourceProxy);
 
+  /**
+   * Makes the active trace, if any, load the plugin at its beginning: classes that Python makes of
+   * representations before lack the properties of splats.
+   */
+  static void LoadInTrace();
+
 protected:
   vtkSMIsopointSourceProxy() = default;
   ~vtkSMIsopointSourceProxy() override = default;

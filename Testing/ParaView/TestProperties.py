@@ -79,7 +79,7 @@ def filter_accepts(instance, name):
 def check_filter(root, documented):
     """documented: the defaults in the tables of the document, by property."""
     proxy = root.find(".//*[@class]")
-    contours = proxy.tag == "IsopointSourceProxy"
+    contours = proxy.get("name") != "IsopointSplatPolygons"
     filter_class = getattr(scatteredisopoints, proxy.get("class"))
     names = []
     for name, element, name_in_class, default in vector_properties(root):

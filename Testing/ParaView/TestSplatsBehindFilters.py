@@ -111,6 +111,35 @@ def shapes_are_hidden(sources):
     check("Radius" in head and "Splat" not in head, f"columns of a table: {head}")
 
 
+def first_points_may_come_late():
+    """Filters of empty isopoints show splats as soon as there are points, unless the user chose something else. The
+    points may come in an update of the filters or of the view."""
+    simple.HideAll(VIEW)
+    for update in (lambda source: None, updated):
+        isopoints = ball(10, 100.0)
+        transform = simple.Transform(Input=isopoints)
+        sources = {
+            "Transform": transform, "Threshold": within(transform, "r", RADIUS - 1, RADIUS + 1),
+            "Delaunay": simple.Delaunay3D(Input=isopoints), "chosen": simple.Transform(Input=isopoints)}
+        displays = {name: shown(source, VIEW, [1.0, 1.0, 0.0]) for name, source in sources.items()}
+        displays["chosen"].Representation = "Points"
+        check(not covered(pixels(VIEW)).any(), "nothing yet")
+        for name in list(displays)[1:]:
+            displays[name].Visibility = 0
+        isopoints.Isosurfaces = [RADIUS]
+        update(sources["Transform"])
+        part = covered(pixels(VIEW)).sum() / (np.pi * (150 * RADIUS / 10.0) ** 2)
+        check(0.95 < part < 1.1, f"the picture shows {part:.3f} of the ball")
+        for display in displays.values():
+            display.Visibility = 1
+        simple.Render(VIEW)
+        found = {name: representation_of(display) for name, display in displays.items()}
+        check(found == {"Transform": SPLATS, "Threshold": SPLATS, "Delaunay": "Surface",
+                        "chosen": "Points"}, f"shown as {found}")
+        for source in [*sources.values(), isopoints]:
+            simple.Delete(source)
+
+
 def meshes_are_drawn_as_they_are():
     for source in (simple.Delaunay3D(Input=BALL), simple.Sphere(), simple.Slice(Input=BALL)):
         check(representation_of(simple.Show(source, VIEW)) == "Surface", "a mesh")
@@ -121,4 +150,4 @@ load(sys.argv[1])
 VIEW = make_view(300)
 look(VIEW, 50.0, 10.0)
 BALL = ball(10, RADIUS)
-run(filters_are_drawn, splats_stay, meshes_are_drawn_as_they_are)
+run(filters_are_drawn, splats_stay, first_points_may_come_late, meshes_are_drawn_as_they_are)

@@ -41,6 +41,37 @@ def build():
     simple.Render(view)
 
 
+def isopoints_of_a_file():
+    """Splats of points that no filter of the plugin makes here."""
+    display = simple.Show(simple.XMLPolyDataReader(FileName=[path_of("isopoints.vtp")]))
+    display.SplatRadiusScale = 0.5
+
+
+def polygons_of_a_file():
+    simple.IsopointSplatPolygons(Input=simple.XMLPolyDataReader(FileName=[path_of("isopoints.vtp")]))
+
+
+def polygons_later():
+    """A part of a trace, without its beginning."""
+    smtrace.reset_trace_output()
+    polygons_of_a_file()
+
+
+def others_load_it_too():
+    """Each trace loads the plugin once, before it uses anything of it."""
+    simple.SaveData(path_of("isopoints.vtp"), simple.FindSource("ScatteredIsopoints1"), DataMode="Binary")
+    for act, expected in ((isopoints_of_a_file, "'Isopoint Splats', 1"), (polygons_of_a_file, "IsopointSplatPolygons1"),
+                          (polygons_later, "IsopointSplatPolygons1")):
+        for source in simple.GetSources().values():
+            simple.Delete(source)
+        smtrace.start_trace(preamble="")
+        act()
+        trace = smtrace.stop_trace()
+        check(trace.count("LoadPlugin(") == 1, trace)
+        (found,), _ = run_script(pvbatch, "from paraview.simple import *\n" * (act is polygons_later) + trace + REPORT)
+        check(expected in found, f"{found} instead of {expected}")
+
+
 plugin, pvbatch = sys.argv[1:]
 simple.LoadPlugin(plugin)
 smtrace.start_trace(preamble="")
@@ -64,4 +95,5 @@ copy = shutil.copy(plugin, FOLDER)
 (found,), _ = run_script(pvbatch, f"from paraview.simple import *\nLoadPlugin({copy!r})\n{state}{REPORT}", **with_path)
 check("('ScatteredIsopoints1', 1449)" in found and "('Isopoint Splats', 1)" in found, found)
 check("NumberOf" not in trace + state, "they do not set counters")
+others_load_it_too()
 print("passed")
