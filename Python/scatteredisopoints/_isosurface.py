@@ -125,7 +125,8 @@ class Isosurface:
         _library.run_with(
             _library.Callbacks(**callbacks), surface, _library.make_splat_mesh, scale)
         point_of_vertex = _library.view(surface, _library.SPLAT_VERTEX_POINTS)
-        arrays = {name: _at_vertices(surface, column(name, array, len(self)), point_of_vertex)
+        is_canceled = callbacks.get("is_canceled")
+        arrays = {name: _at_vertices(surface, column(name, array, len(self)), point_of_vertex, is_canceled)
                   for name, array in self.arrays.items()}
         arrays["Normals"] = _library.view(surface, _library.SPLAT_VERTEX_NORMALS)
         return Isosurface(
@@ -143,10 +144,11 @@ class Isosurface:
         return f"<Isosurface: {shown}; arrays: {', '.join(self.arrays) or 'none'}>"
 
 
-def _at_vertices(surface: _library.Surface, array: np.ndarray, point_of_vertex) -> np.ndarray:
+def _at_vertices(surface: _library.Surface, array: np.ndarray, point_of_vertex, is_canceled) -> np.ndarray:
     """An array of points, evaluated at the vertices of their splats."""
     if array.dtype.kind != "f":
         return array[point_of_vertex]
     result = np.empty((len(point_of_vertex), *array.shape[1:]), array.dtype)
-    _library.run(_library.average_at_splat_vertices, surface, array, result)
+    _library.run_with(_library.Callbacks(is_canceled=is_canceled), surface,
+                      _library.average_at_splat_vertices, array, result)
     return result

@@ -251,7 +251,7 @@ class Samples:
                 describe_masked(masked), is_warning=False, cause="masked values"))
         if self._without_array:
             messages.append(_datasets.describe_without_array(self._without_array, self._name))
-        found = self._interpolated(surface, of_samples)
+        found = self._interpolated(surface, of_samples, callbacks.get("is_canceled"))
         if options.get("compute_scalars", True):
             name = self._maker.scalars or "values"
             if name in found:
@@ -362,7 +362,7 @@ class Samples:
         is_of_vtk = hasattr(array, "GetDataType") and not isinstance(array, np.ndarray)
         return tensors(name, self._current(name, array) if is_of_vtk else array, len(self))
 
-    def _interpolated(self, surface, of_samples: Mapping[str, Any]) -> dict[str, np.ndarray]:
+    def _interpolated(self, surface, of_samples: Mapping[str, Any], is_canceled) -> dict[str, np.ndarray]:
         edges = _library.view(surface, _library.EDGES)
         found: dict[str, np.ndarray] = {}
         for name, array in of_samples.items():
@@ -372,7 +372,8 @@ class Samples:
                 continue
             array = readable(name, self._current(name, array))
             found[name] = np.empty((len(edges), *array.shape[1:]), array.dtype)
-            _library.run(_library.interpolate, surface, array, found[name])
+            _library.run_with(_library.Callbacks(is_canceled=is_canceled), surface, _library.interpolate,
+                              array, found[name])
         return found
 
     def _as_isosurface(self, surface, arrays, options: _library.Options, threads: Optional[int]) -> Isosurface:

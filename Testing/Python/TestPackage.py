@@ -569,6 +569,25 @@ class Interruptions(unittest.TestCase):
             with self.assertRaises(KeyboardInterrupt):
                 surface.splats()
 
+    def test_arrays_can_be_canceled(self):
+        """Those of the points, and those at the vertices of splats."""
+        positions, values = cloud(20000)
+        samples = Samples(positions, values)
+        surface = samples.contour(0.3)
+        for name, call in (
+                ("interpolate", lambda is_over: samples._extract(
+                    0.3, False, {"positions": positions}, {}, is_canceled=is_over)),
+                ("average_at_splat_vertices", lambda is_over: surface._splats(is_canceled=is_over))):
+            calls = []
+
+            def begin(*arguments, function=getattr(_library, name), calls=calls):
+                calls.append(1)
+                return function(*arguments)
+
+            with self.subTest(name), mock.patch.object(_library, name, begin):
+                with self.assertRaises(InterruptedError):
+                    call(lambda calls=calls: bool(calls))
+
     def test_signals_and_the_end_of_the_interpreter(self):
         none = r"\A\Z"
         begin = (
