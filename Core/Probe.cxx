@@ -108,6 +108,7 @@ void IsosurfaceExtractor::probe(const Execution& execution, const Neighborhoods&
   for (const ProbedArray& array : arrays)
   {
     std::vector<std::vector<double>> numbers; // by component, then index in the neighborhoods' ids
+    numbers.reserve(static_cast<std::size_t>(array.components));
     for (int component = 0; component < array.components; ++component)
     {
       numbers.push_back(items.fetch([&](const std::uint64_t* ids, std::size_t count, double* result)
