@@ -32,7 +32,7 @@ from scatteredisopoints import Samples
 from tables import add_numbers, parser_of, print_head, print_row
 
 METHODS = ("BLEND", "CUBIC", "QUADRATIC", "AFFINE")  # BLEND is the default
-MOST = 20000  # places for slow peers
+MOST = 20000  # places for slow peers, and to time
 MOST_VOXELS = 96  # of each axis of a volume: those in the middle
 
 
@@ -299,7 +299,8 @@ def same(_):
             other, _ = Ours(positions[order], method)([values[order]], places, 1)
             print_row(kind.__name__, method,
                       all(np.array_equal(found, f) and np.array_equal(slopes, g) for f, g in by_threads),
-                      np.array_equal(found[:, places_order], turned[0]) and np.array_equal(slopes[places_order], turned[1]),
+                      np.array_equal(found[:, places_order], turned[0])
+                      and np.array_equal(slopes[places_order], turned[1]),
                       f"{np.abs(found - other).max() / np.ptp(values):.1e}")
 
 
@@ -316,26 +317,26 @@ def add_prices(count, options):
     positions = uniform(count, random)
     first = smooth(positions)[0]
     five = [first, first ** 2, positions[:, 0] * first, np.sin(positions[:, 1]), positions[:, 2] ** 3]
-    places, spacing = 0.9 * uniform(100000, random), spacing_of(positions)
+    places, spacing = 0.9 * uniform(MOST, random), spacing_of(positions)
     works, seconds, prepared = {}, {}, {}
 
-    def add(name, peer, some, has_gradients):
-        works[name, 1] = lambda: peer([first], some, 0), len(some)
-        works[name, 5] = lambda: peer(five, some, 0), len(some)
+    def add(name, peer, has_gradients):
+        works[name, 1] = lambda: peer([first], places, 0), MOST
+        works[name, 5] = lambda: peer(five, places, 0), MOST
         if has_gradients:
-            works[name, "gradient"] = lambda: peer([first], some, spacing), len(some)
+            works[name, "gradient"] = lambda: peer([first], places, spacing), MOST
 
     for method in (*METHODS, "NEAREST"):
         made = []
         prepared[method] = processor_seconds(lambda: made.append(Ours(positions, method, outside=np.nan)))
         made[0]([first], places)  # refines the tree
-        add(method, made[0], places, method != "NEAREST")
+        add(method, made[0], method != "NEAREST")
         if method in ("BLEND", "CUBIC"):
             works[method, "at the samples"] = lambda ours=made[0]: ours([first], positions, spacing), count
     for name in options.peers:
         made = []
         prepared[name] = processor_seconds(lambda: made.append(peers.made(name, positions)))
-        add(name, made[0], places[:MOST], False)
+        add(name, made[0], False)
     for _ in range(options.runs):
         for key, (work, size) in works.items():
             seconds.setdefault(key, []).append(1e6 * processor_seconds(work) / size)

@@ -75,7 +75,7 @@ def make_probe_options(method: Any, outside: Any) -> ProbeOptions:
     """Raises ValueError for invalid values."""
     options = ProbeOptions()
     is_number = isinstance(method, (int, np.integer)) and not isinstance(method, bool)
-    options.method = _number("method", method if is_number else constant("method", str(method)), options.method)
+    options.method = number_of("method", method if is_number else constant("method", str(method)), options.method)
     if outside is None:
         options.outside = _library.OUTSIDE_EXTRAPOLATE
     elif isinstance(outside, str) and outside.lower() == "nearest":
