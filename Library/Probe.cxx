@@ -26,9 +26,9 @@ T numberAs(double number)
   {
     return static_cast<T>(number);
   }
-  // The limits of wide integers are rounded to powers of two.
+  // The greatest wide integers are no double, but the next power of two is.
   const bool isInside = number >= static_cast<double>(std::numeric_limits<T>::lowest()) &&
-                        number < -2.0 * static_cast<double>(std::numeric_limits<T>::max() / -2 - 1);
+                        number < std::ldexp(1.0, std::numeric_limits<T>::digits);
   return isInside ? static_cast<T>(number) : T{ 0 };
 }
 

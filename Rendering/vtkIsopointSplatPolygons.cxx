@@ -81,18 +81,18 @@ template <class TArray>
 void setTriangles(const Execution& execution, const SplatMesh& mesh, vtkPolyData* output)
 {
   using Number = typename TArray::ValueType;
-  const std::size_t count = mesh.triangles.size();
+  const auto count = static_cast<vtkIdType>(mesh.triangles.size());
   vtkNew<TArray> offsets;
   vtkNew<TArray> connectivity;
-  vtkAllocateTuples(offsets, static_cast<vtkIdType>(count + 1));
-  vtkAllocateTuples(connectivity, static_cast<vtkIdType>(3 * count));
+  vtkAllocateTuples(offsets, count + 1);
+  vtkAllocateTuples(connectivity, 3 * count);
   Number* const ends = offsets->GetPointer(0);
   Number* const corners = connectivity->GetPointer(0);
   ends[0] = 0;
-  isopoint::forEachIndex(execution, count,
+  isopoint::forEachIndex(execution, mesh.triangles.size(),
     [&](std::size_t i)
     {
-      ends[i + 1] = static_cast<Number>(3 * (i + 1));
+      ends[i + 1] = 3 * (static_cast<Number>(i) + 1);
       std::transform(mesh.triangles[i].begin(), mesh.triangles[i].end(), corners + 3 * i,
         [](std::size_t vertex) { return static_cast<Number>(vertex); });
     });

@@ -96,6 +96,7 @@ std::vector<T> collected(
     },
     batchDone);
   std::vector<std::vector<T>> inOrder;
+  inOrder.reserve(lists.size());
   for (auto& [begin, list] : lists)
   {
     inOrder.push_back(std::move(list));
