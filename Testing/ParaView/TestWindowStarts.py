@@ -35,7 +35,7 @@ def use_window(home, events=(), **environment):
          event(WINDOW + "menubar/menu_File", "activate", "actionExportRayTracedPicture"),
          event(WINDOW + "FileExportDialog", "filesSelected", str(picture)),
          event(samples + "LineEdit", "set_string", "1"), event(settings + "widget/OKButton", "activate"),
-         *search(PARAVIEW, "contour samples", "Contour samples as points"), APPLY],
+         *search(PARAVIEW, "contour samples", "Contour samples as points", "Contour samples as triangles"), APPLY],
         home=str(home), **environment)
     check(shown["ScatteredIsopoints1"] == [0, "Isopoint Splats"], f"the input of Clip is hidden: {shown}")
     check("ScatteredIsopoints2" in shown, f"the search created a filter: {shown}")
