@@ -21,19 +21,17 @@ ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "OMP_PROC_BIN
 def enter(folder):
     """Runs this program again in a virtual environment that has the packages, and prints those that an index lacks."""
     folder = pathlib.Path(folder).absolute()
-    if pathlib.Path(sys.prefix) != folder:
-        python = folder / "bin/python3"
-        if not python.exists():
-            venv.create(folder, with_pip=True)
-        environment = {name: value for name, value in os.environ.items() if not name.startswith("OPENBLAS_")}
-        os.execve(python, [str(python), *sys.argv], {**environment, **ONE_THREAD})
+    if pathlib.Path(sys.prefix) == folder:
+        return
+    python = str(folder / "bin/python3")
+    if not pathlib.Path(python).exists():
+        venv.create(folder, with_pip=True)
     for package in PACKAGES:
-        if importlib.util.find_spec(package) is None:
-            made = subprocess.run([sys.executable, "-m", "pip", "install", "--quiet", package], capture_output=True,
-                                  text=True)
-            if made.returncode:
-                print(f"{package} could not be installed, and is left out: {made.stderr.strip().splitlines()[-1]}\n")
-    importlib.invalidate_caches()
+        made = subprocess.run([python, "-m", "pip", "install", "--quiet", package], capture_output=True, text=True)
+        if made.returncode:
+            print(f"{package} could not be installed, and is left out: {made.stderr.strip()}\n", flush=True)
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("OPENBLAS_")}
+    os.execve(python, [python, *sys.argv], {**environment, **ONE_THREAD})
 
 
 def has(package):
