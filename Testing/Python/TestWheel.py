@@ -158,7 +158,8 @@ def check_picture(environment, expected):
     difference = float(environment.run(
         "-c", "import sys, numpy as np, pyvista as pv\n"
         "a, b = (np.asarray(pv.read(path).active_scalars, float) for path in sys.argv[1:])\n"
-        "print(np.abs(a - b).mean() if a.shape == b.shape else np.inf)", environment.folder / expected.name, expected))
+        "print(np.abs(a - b).mean() if a.shape == b.shape else np.inf)", environment.folder / expected.name, expected,
+        **DRAWING))
     if difference > 1:
         sys.exit(f"failed: {environment.folder / expected.name} differs from {expected} by {difference} of 255: look at"
                  " it, and copy it if it is right")
