@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/IsosurfaceExtractor.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -25,7 +26,14 @@ void multiplyLengths(const Execution& execution, ExtractedIsosurface& result, in
   }
   const auto change = [&execution](auto& elements, const auto& changeOne)
   { forEachIndex(execution, elements.size(), [&](std::size_t i) { changeOne(elements[i]); }); };
-  const auto multiply = [exponent](Vector& vector) { vector = scaled(vector, exponent); };
+  const auto multiply = [exponent](Vector& vector)
+  {
+    using Limits = std::numeric_limits<double>; // a fit may move points beyond the greatest sample
+    for (double& coordinate : vector)
+    {
+      coordinate = std::clamp(std::ldexp(coordinate, exponent), Limits::lowest(), Limits::max());
+    }
+  };
   change(result.surface.positions, multiply);
   change(result.surface.decreasingEdges, multiply);
   change(result.surface.fits,

@@ -88,8 +88,8 @@ inline double planeBetween(double c, double d)
   return std::isfinite(plane) ? plane : 0.5 * c + 0.5 * d;
 }
 
-/// Section 2: positions divided by a power of two, if they are out of scale.
-inline clouds::Cloud inScale(const clouds::Cloud& cloud)
+/// Section 2: the exponent of the power of two by which positions out of scale are divided, else 0.
+inline int scaleExponentOf(const clouds::Cloud& cloud)
 {
   double greatest = 0.0;
   std::vector<int> exponents;
@@ -102,11 +102,17 @@ inline clouds::Cloud inScale(const clouds::Cloud& cloud)
   }
   if (greatest == 0.0 || (greatest >= 0x1p-128 && greatest < 0x1p129))
   {
-    return cloud;
+    return 0;
   }
   std::sort(exponents.begin(), exponents.end());
   const int median = exponents[exponents.size() / 2];
-  const int exponent = greatest > 1.0 ? std::max(median, 0) : median;
+  return greatest > 1.0 ? std::max(median, 0) : median;
+}
+
+/// Section 2: positions divided by a power of two, if they are out of scale.
+inline clouds::Cloud inScale(const clouds::Cloud& cloud)
+{
+  const int exponent = scaleExponentOf(cloud);
   return clouds::moved(cloud, [exponent](double* p)
     { std::for_each(p, p + 3, [=](double& c) { c = std::ldexp(c, -exponent); }); });
 }
