@@ -260,6 +260,11 @@ TEST(Degenerate, SurfacesAreFiniteNearTheLimitsOfDouble)
   {
     EXPECT_GT(contour(scaled(lattice, scale), 5.0).count(), 100) << scale;
   }
+  // Fits that move points beyond samples at the largest double.
+  const Samples bent = latticeOf(
+    5, [](const Vector& p) { return 0.5 * p[0] + 0.075 * p[0] * p[0] + 0.075 * p[0] * p[1]; });
+  const double half = 0.5 * std::numeric_limits<double>::max();
+  EXPECT_GT(contour(scaled(bent, half), 1.55).count(), 5);
 }
 
 TEST(Degenerate, SamplesThatAreNotFiniteAreLeftOutAndCounted)
