@@ -14,6 +14,7 @@ from playing import APPLY, FOLDER, SCRIPT, WINDOW, check, choose, event, play_sc
 PARAVIEW, *PLUGINS = sys.argv[1:]
 SETTINGS = Path(".config/ParaView") / "ParaView{}.{}.{}.ini".format(*version_of(PARAVIEW))
 MANAGER = WINDOW + "PluginManagerDialog/"
+FILES = MANAGER + ("1pqFileDialog0" if version_of(PARAVIEW) >= (5, 13) else "pqFileDialog")
 
 
 def new_home():
@@ -55,7 +56,7 @@ def loaded_plugin_then_automatically():
     home, (plugin,) = new_home(), PLUGINS
     use_window(home, [event(WINDOW + "menubar/menuTools", "activate", "actionManage_Plugins"),
                       event(MANAGER + "splitter/localGroup/loadLocal", "activate"),
-                      event(MANAGER + "pqFileDialog", "filesSelected", plugin),
+                      event(FILES, "filesSelected", plugin),
                       event(MANAGER + "buttonBox/1QPushButton0", "activate")])
     settings = (home / SETTINGS).read_text()
     own = f'filename=\\"{plugin}\\" auto_load=\\"'
