@@ -19,7 +19,7 @@ ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "OMP_PROC_BIN
 
 
 def enter(folder):
-    """Runs this program again in a virtual environment that has the packages, and prints those that an index lacks."""
+    """Runs this program again in a virtual environment that has the packages. Prints which could not be installed."""
     folder = pathlib.Path(folder).absolute()
     if pathlib.Path(sys.prefix) == folder:
         return

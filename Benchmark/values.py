@@ -109,7 +109,7 @@ def quantiles(errors):
 
 
 def all_of(positions, names, *known):
-    """Yields the names of methods and peers, and what is made of positions. Peers may be tuned to known results."""
+    """Yields the name of each method and peer, and its interpolator. Peers may be tuned to known results."""
     yield from ((method, Ours(positions, method)) for method in METHODS)
     for name in names:
         peer = peers.made(name, positions)

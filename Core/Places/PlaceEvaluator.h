@@ -37,8 +37,8 @@ struct Surroundings
   void setReach(std::size_t most, double next);
 };
 
-/// The number of positions that a method needs around each place: those it fits to, and those that
-/// tell whether the place is outside.
+/// The number of positions that a method needs around each place: to fit to, and to tell whether
+/// the place is outside.
 std::size_t neededCount(const ProbeOptions& options);
 
 /// Computes the values of arrays at places from the samples around. Memory is kept. For one thread.

@@ -44,7 +44,7 @@ struct ProbedArray
   std::function<void(std::size_t place, const std::uint64_t* id)> take;
 };
 
-/// What is known of places.
+/// Properties of places, combined by bitwise or.
 enum PlaceKinds : std::uint8_t
 {
   PlaceOutside = 1, // of the samples

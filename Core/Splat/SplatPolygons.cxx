@@ -244,7 +244,7 @@ void setShape(const CornerJoiner& joiner, std::size_t point, const Vector& posit
   const TangentFrame frame(splat.normal);
   std::array<Vector, maxCorners> offsets{};
   std::array<Vector, maxCorners> normals{};
-  std::size_t count = 0; // of the corners; those that became one count once
+  std::size_t count = 0; // of different corners
   splat.radius = 0.0;
   splat.counts = {};
   for (std::size_t i = 0; i < cell.count; ++i)

@@ -87,7 +87,7 @@ SplatMesh buildSplatMesh(const Execution& execution, std::size_t points,
   std::vector<std::size_t> meetsAt = meetingVertices(partOf(execution, 2.0 * third, 1.0), vertices);
   ItemLists meeting(execution, vertices.size(), vertices.size(),
     [&meetsAt](std::size_t vertex) { return std::array<std::size_t, 1>{ meetsAt[vertex] }; });
-  // Corners of neighbors differ by rounding, and pixels between them would show what is behind. The
+  // Corners of neighbors differ by rounding. Pixels between them would show the background. The
   // least position does not depend on the order of the points.
   forEachIndex(execution, vertices.size(),
     [&](std::size_t first)

@@ -223,7 +223,7 @@ class Callbacks:
         self._reported: Optional[float] = None
 
     def functions(self) -> tuple[Any, Any]:
-        """Those that the library calls."""
+        """The functions for the library to call."""
         answers = self._answers()
         next(answers)
         return Progress(self._fractions.__setitem__), Cancels(answers.send)

@@ -30,7 +30,7 @@ class Extracted:
     isosurface: Isosurface
     surface: _library.Surface
     own_messages: list[_library.Message]
-    """Those that the library does not give."""
+    """Messages of this package, beside those of the library."""
 
     @property
     def messages(self) -> list[_library.Message]:
