@@ -201,7 +201,8 @@ private:
 
 /// The Cholesky factor L of the normal equations of weighted least-squares polynomials, which
 /// depends on positions and weights alone. Its leading blocks are those of lower degrees. A
-/// coefficient that the samples do not determine is left out, as if it were 0.
+/// coefficient that the samples do not determine is left out, as if it were 0; one that they hardly
+/// determine is drawn towards 0.
 template <int Degree>
 class CholeskyFactor
 {
@@ -209,19 +210,18 @@ public:
   static constexpr std::size_t size = coefficientCount(Degree);
 
   /// O(samples)
-  CholeskyFactor(const FrameSamples& samples, const FrameWeights& weights)
+  /// @param determined the share of its diagonal element from which a pivot counts in full. Below,
+  /// down to minPivot, it is divided by a number that falls to 0 (a ridge), so that results are
+  /// continuous where samples begin to determine a coefficient
+  CholeskyFactor(
+    const FrameSamples& samples, const FrameWeights& weights, double determined = minPivot)
+    : FullShare(determined)
   {
     this->factor(Moments<2 * Degree>(samples, weights), std::make_index_sequence<size>());
   }
 
   /// The highest degree whose coefficients the samples determine; 0 if none.
   int determinedDegree() const { return this->Determined; }
-
-  /// The share of a coefficient's diagonal element that former coefficients leave: 0 to 1.
-  double pivotShare(std::size_t i) const
-  {
-    return this->Diagonal[i] > 0.0 ? this->Pivots[i] / this->Diagonal[i] : 0.0;
-  }
 
   double pivot(std::size_t i) const { return this->Pivots[i]; }
   double diagonal(std::size_t i) const { return this->Diagonal[i]; }
@@ -320,6 +320,11 @@ private:
       return;
     }
     this->Reciprocals[Index] = 1.0 / std::sqrt(pivot);
+    if (pivot < this->FullShare * diagonal)
+    {
+      this->Reciprocals[Index] *=
+        std::sqrt((pivot - minPivot * diagonal) / ((this->FullShare - minPivot) * diagonal));
+    }
     for (std::size_t row = first; row < rest.size(); ++row)
     {
       this->Columns[Index][row] = rest[row] * this->Reciprocals[Index];
@@ -334,6 +339,7 @@ private:
   std::array<double, size> Reciprocals;         // of the diagonal of L; 0 if left out
   std::array<double, size> Diagonal;            // of the normal equations
   std::array<double, size> Pivots;
+  double FullShare;
   int Determined = 0;
 };
 

@@ -13,18 +13,8 @@
 namespace isopoint
 {
 
-/// How far samples determine a coefficient, from 0 to 1: results are continuous where samples begin
-/// to determine it.
-/// @param pivotShare see CholeskyFactor
-inline double determination(double pivotShare)
-{
-  constexpr double determined = 1e-5;
-  return std::clamp((pivotShare - minPivot) / (determined - minPivot), 0.0, 1.0);
-}
-
 /// Weighted least squares around a place for any number of arrays: polynomials that are orthonormal
-/// over the samples, so that a fit is a few sums of products. Coefficients that samples hardly
-/// determine fade out; see determination().
+/// over the samples, so that a fit is a few sums of products.
 template <int Degree>
 class OrthonormalFit
 {
@@ -42,60 +32,47 @@ public:
   /// O(samples) @param hasGradient whether errors of the gradient are needed
   void prepare(const FrameSamples& samples, const FrameWeights& weights, bool hasGradient)
   {
-    const CholeskyFactor<Degree> factor(samples, weights);
-    std::array<Lanes, size> units;
-    units.fill(Lanes::Zero());
-    for (std::size_t i = 0; i < laneCount; ++i)
-    {
-      units[i][static_cast<Eigen::Index>(i)] = 1.0;
-    }
-    factor.reduce(Degree, units);
-    for (std::size_t j = 0; j < size; ++j)
-    {
-      this->Shares[j] = determination(factor.pivotShare(j));
-      this->AtPlace[j] = this->Shares[j] * units[j];
-    }
-    this->Groups = samples.groupCount();
+    this->makeBasis(samples, weights);
     Lanes total = Lanes::Zero();
     Lanes ofValue = Lanes::Zero();
     Lanes ofGradient = Lanes::Zero();
     this->HasLoose = false;
     for (std::size_t g = 0; g < this->Groups; ++g)
     {
-      auto reduced = CholeskyFactor<Degree>::products(
-        Lanes(samples.x.group(g)), Lanes(samples.y.group(g)), Lanes(samples.z.group(g)));
-      factor.reduce(Degree, reduced);
-      const Lanes weight = weights.group(g);
       Lanes leverage = Lanes::Zero();
       for (std::size_t j = 0; j < size; ++j)
       {
-        this->Basis[j][g] = reduced[j];
-        leverage += this->Shares[j] * reduced[j] * reduced[j];
+        leverage += this->Basis[j][g].square();
       }
-      const auto squaredEffect = [&](Eigen::Index k)
-      {
-        Lanes effect = Lanes::Zero();
-        for (std::size_t j = 0; j < size; ++j)
-        {
-          effect += this->AtPlace[j][k] * reduced[j];
-        }
-        return Lanes((weight * effect).square());
-      };
-      const Lanes rest = 1.0 - weight * leverage;
-      this->Weights[g] = weight;
+      const Lanes rest = 1.0 - this->Weights[g] * leverage;
       this->Rests[g] = rest.max(leastRest);
       this->Loose[g] = (leastRest - rest).max(0.0);
       this->HasLoose = this->HasLoose || (this->Loose[g] > 0.0).any();
-      total += weight;
-      ofValue += squaredEffect(0);
+      total += this->Weights[g];
+      ofValue += this->effect(g, 0).square();
       if (hasGradient)
       {
-        ofGradient += squaredEffect(1) + squaredEffect(2) + squaredEffect(3);
+        ofGradient +=
+          this->effect(g, 1).square() + this->effect(g, 2).square() + this->effect(g, 3).square();
       }
     }
     this->PerWeight = 1.0 / sumOf(total);
     this->ValueEffect = std::sqrt(sumOf(ofValue));
     this->GradientEffect = sumOf(ofGradient);
+  }
+
+  /// Only the weights of samples in the value (0) and the gradient (1 to 3). O(samples)
+  void findEffects(const FrameSamples& samples, const FrameWeights& weights,
+    std::array<SampleNumbers, laneCount>& effects)
+  {
+    this->makeBasis(samples, weights);
+    for (std::size_t g = 0; g < this->Groups; ++g)
+    {
+      for (std::size_t k = 0; k < laneCount; ++k)
+      {
+        effects[k].setGroup(g, this->effect(g, static_cast<Eigen::Index>(k)));
+      }
+    }
   }
 
   /// O(samples) @param values 0 behind the last sample
@@ -148,6 +125,41 @@ private:
   using Coefficients = std::array<double, coefficientCount(Degree)>;
   using Numbers = std::array<Lanes, most / laneCount>; // of samples
 
+  void makeBasis(const FrameSamples& samples, const FrameWeights& weights)
+  {
+    constexpr double determined = 1e-4;
+    const CholeskyFactor<Degree> factor(samples, weights, determined);
+    this->AtPlace.fill(Lanes::Zero());
+    for (std::size_t i = 0; i < laneCount; ++i)
+    {
+      this->AtPlace[i][static_cast<Eigen::Index>(i)] = 1.0;
+    }
+    factor.reduce(Degree, this->AtPlace);
+    this->Groups = samples.groupCount();
+    for (std::size_t g = 0; g < this->Groups; ++g)
+    {
+      auto reduced = CholeskyFactor<Degree>::products(
+        Lanes(samples.x.group(g)), Lanes(samples.y.group(g)), Lanes(samples.z.group(g)));
+      factor.reduce(Degree, reduced);
+      this->Weights[g] = weights.group(g);
+      for (std::size_t j = 0; j < size; ++j)
+      {
+        this->Basis[j][g] = reduced[j];
+      }
+    }
+  }
+
+  /// Of the values of four samples, on the value (0) or a component of the gradient (1 to 3).
+  Lanes effect(std::size_t group, Eigen::Index k) const
+  {
+    Lanes effect = Lanes::Zero();
+    for (std::size_t j = 0; j < size; ++j)
+    {
+      effect += this->AtPlace[j][k] * this->Basis[j][group];
+    }
+    return this->Weights[group] * effect;
+  }
+
   Coefficients coefficientsOf(const SampleNumbers& values) const
   {
     Numbers weighted;
@@ -175,7 +187,7 @@ private:
     Lanes residual = values.group(group);
     for (std::size_t j = 0; j < size; ++j)
     {
-      residual -= this->Shares[j] * coefficients[j] * this->Basis[j][group];
+      residual -= coefficients[j] * this->Basis[j][group];
     }
     if (this->HasLoose)
     {
@@ -192,8 +204,7 @@ private:
 
   std::size_t Groups = 0;
   std::array<Numbers, size> Basis;
-  std::array<double, size> Shares;
-  std::array<Lanes, size> AtPlace; // value and gradient of each polynomial, faded
+  std::array<Lanes, size> AtPlace; // value and gradient of each polynomial
   Numbers Weights;
   Numbers Rests; // 1 less the share of a sample in its own fit
   Numbers Loose; // what that lacks to the least one

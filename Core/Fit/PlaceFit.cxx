@@ -36,16 +36,22 @@ double shareOf(double variance, double least)
 
 void PlaceFitter::enter(const std::vector<Vector>& offsets, std::size_t count, double reach)
 {
+  constexpr double equal = 1.0 - 1e-9;
+  constexpr double beyond = 1.21;
   this->PerUnit = 1.0 / unitOf(reach);
   this->SquaredReach = (this->PerUnit * reach) * (this->PerUnit * reach);
   this->Count = count;
   this->AllCount = offsets.size();
-  this->IsFlat = false;
-  this->Height = 0.0;
+  this->IsTurned = false;
+  this->Dimensions = 3;
   this->add(offsets);
+  if (this->Samples.squaredDistance[0] >= equal * this->SquaredReach)
+  {
+    this->SquaredReach *= beyond; // the samples around have the same distance
+  }
   if (this->Method != PlaceMethod::Nearest || this->AllCount > 1)
   {
-    this->flatten(offsets);
+    this->turn(offsets);
   }
 }
 
@@ -64,18 +70,18 @@ void PlaceFitter::prepare()
       this->Stencil[0][0] = 1.0;
       break;
     default:
-      this->weigh(this->SquaredReach, this->Method != PlaceMethod::Affine, this->Weights);
+      this->weigh(this->SquaredReach, this->Method != PlaceMethod::Affine);
       if (this->Method == PlaceMethod::Cubic && areEnough(this->Count, 3))
       {
-        this->makeStencil<3>();
+        this->makeStencil(this->Cubic);
       }
       else if (this->Method != PlaceMethod::Affine && areEnough(this->Count, 2))
       {
-        this->makeStencil<2>();
+        this->makeStencil(this->Steep);
       }
       else
       {
-        this->makeStencil<1>();
+        this->makeStencil(this->Affine);
       }
   }
 }
@@ -92,32 +98,42 @@ void PlaceFitter::prepareFrom(const double* weights, std::size_t count)
   }
 }
 
+/// Lists the samples along the axes, and replaces coordinates across flat ones by their mean.
 void PlaceFitter::add(const std::vector<Vector>& offsets)
 {
   this->Samples.clear();
   for (const Vector& offset : offsets)
   {
-    const Vector own = this->PerUnit * offset;
-    this->Samples.add(this->IsFlat ? Vector{ dot(own, this->Axes[0]), dot(own, this->Axes[1]),
-                                       dot(own, this->Axes[2]) }
-                                   : own,
-      0.0);
+    Vector own = this->PerUnit * offset;
+    const double squared = dot(own, own);
+    if (this->IsTurned)
+    {
+      own = { dot(own, this->Axes[0]), dot(own, this->Axes[1]), dot(own, this->Axes[2]) };
+      for (auto axis = static_cast<std::size_t>(this->Dimensions); axis < 3; ++axis)
+      {
+        own[axis] = this->Mean[axis];
+      }
+    }
+    this->Samples.add(own, 0.0, squared);
   }
 }
 
-void PlaceFitter::flatten(const std::vector<Vector>& offsets)
+/// Turns samples that are nearly in a plane or on a line to their principal axes: so what they
+/// determine fades out as they become flat.
+void PlaceFitter::turn(const std::vector<Vector>& offsets)
 {
   // Methods that fit to few samples know more, which tell whether the place is outside.
   constexpr double beyond = 1.21;
+  constexpr double thin = 0.02; // share of eigenvalues
   this->weigh(this->Count == this->AllCount
                 ? this->SquaredReach
                 : beyond * this->Samples.squaredDistance[this->AllCount - 1],
-    false, this->Weights);
+    false);
   const CholeskyFactor<1> factor(this->Samples, this->Weights);
-  const double scale = std::max({ factor.diagonal(1), factor.diagonal(2), factor.diagonal(3) });
-  // The product of the pivots is that of the eigenvalues of the samples' covariance. These are at
-  // most three times the largest diagonal element.
-  if (factor.pivot(1) * factor.pivot(2) * factor.pivot(3) > 27.0 * minPivot * scale * scale * scale)
+  // The product of the pivots is that of the covariance's eigenvalues. Their sum is at most that of
+  // the diagonal elements.
+  const double sum = factor.diagonal(1) + factor.diagonal(2) + factor.diagonal(3);
+  if (factor.pivot(1) * factor.pivot(2) * factor.pivot(3) > 4.0 / 27.0 * thin * sum * sum * sum)
   {
     return;
   }
@@ -139,25 +155,25 @@ void PlaceFitter::flatten(const std::vector<Vector>& offsets)
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
   const Eigen::Vector3d& values = solver.eigenvalues(); // ascending
-  if (values[0] > minPivot * values[2])
+  if (values[0] > thin * values[2])
   {
     return;
   }
-  this->IsFlat = true;
+  this->IsTurned = true;
+  this->Dimensions = 0;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const Eigen::Index column = 2 - static_cast<Eigen::Index>(axis);
     const Eigen::Vector3d direction = solver.eigenvectors().col(column);
-    const bool isThin = !(values[column] > minPivot * values[2]);
-    this->Height += isThin ? mean.dot(direction) * mean.dot(direction) : 0.0;
-    this->Axes[axis] = isThin ? Vector{} : Vector{ direction[0], direction[1], direction[2] };
+    this->Axes[axis] = { direction[0], direction[1], direction[2] };
+    this->Mean[axis] = mean.dot(direction);
+    this->Dimensions += values[column] > minPivot * values[2] ? 1 : 0;
   }
-  this->SquaredReach = std::max(0.0, this->SquaredReach - this->Height);
   this->add(offsets);
 }
 
 /// Weights that vanish at a distance from the place.
-void PlaceFitter::weigh(double squaredReach, bool isSteep, FrameWeights& weights) const
+void PlaceFitter::weigh(double squaredReach, bool isSteep)
 {
   const double mean = this->Samples.meanDistance();
   const double scale = mean > 0.0 ? 1.0 / (mean * mean) : 0.0;
@@ -166,49 +182,18 @@ void PlaceFitter::weigh(double squaredReach, bool isSteep, FrameWeights& weights
   for (std::size_t g = 0; g < groups; ++g)
   {
     const Lanes squared = this->Samples.squaredDistance.group(g);
-    const Lanes rest = (1.0 - perReach * squared).max(0.0);
+    const Lanes taper = (1.0 - perReach * squared).max(0.0);
     const Lanes base = steepOffset + scale * squared;
-    weights.setGroup(g, isSteep ? Lanes(rest * rest / (base * base * base)) : Lanes(rest * rest));
+    this->Weights.setGroup(
+      g, isSteep ? Lanes(taper * taper / (base * base * base)) : Lanes(taper * taper));
   }
-  endWeights(this->Samples, weights);
+  endWeights(this->Samples, this->Weights);
 }
 
-template <int Degree>
-void PlaceFitter::makeStencil()
+template <class Fit>
+void PlaceFitter::makeStencil(Fit& fit)
 {
-  const CholeskyFactor<Degree> factor(this->Samples, this->Weights);
-  constexpr std::size_t size = CholeskyFactor<Degree>::size;
-  std::array<Lanes, size> units; // of the coefficients of value and gradient
-  units.fill(Lanes::Zero());
-  for (std::size_t i = 0; i < laneCount; ++i)
-  {
-    units[i][static_cast<Eigen::Index>(i)] = 1.0;
-  }
-  factor.reduce(Degree, units);
-  for (std::size_t j = 0; j < size; ++j)
-  {
-    units[j] *= determination(factor.pivotShare(j));
-  }
-  factor.substituteBack(Degree, units);
-  const std::size_t groups = this->Samples.groupCount();
-  for (std::size_t g = 0; g < groups; ++g)
-  {
-    const auto products = CholeskyFactor<Degree>::products(Lanes(this->Samples.x.group(g)),
-      Lanes(this->Samples.y.group(g)), Lanes(this->Samples.z.group(g)));
-    std::array<Lanes, laneCount> sums;
-    sums.fill(Lanes::Zero());
-    for (std::size_t j = 0; j < size; ++j)
-    {
-      for (std::size_t k = 0; k < laneCount; ++k)
-      {
-        sums[k] += units[j][static_cast<Eigen::Index>(k)] * products[j];
-      }
-    }
-    for (std::size_t k = 0; k < laneCount; ++k)
-    {
-      this->Stencil[k].setGroup(g, this->Weights.group(g) * sums[k]);
-    }
-  }
+  fit.findEffects(this->Samples, this->Weights, this->Stencil);
   for (std::size_t i = 0; i < this->Count; ++i)
   {
     const Vector gradient =
@@ -227,20 +212,20 @@ void PlaceFitter::prepareBlend()
   const FrameSamples& samples = this->Samples;
   const auto reachOf = [&](std::size_t count)
   { return count < this->Count ? samples.squaredDistance[count] : this->SquaredReach; };
-  this->weigh(reachOf(fewAffine), false, this->Weights);
+  this->weigh(reachOf(fewAffine), false);
   this->Affine.prepare(samples, this->Weights, this->HasGradients);
   this->HasQuadratic = areEnough(std::min(this->Count, fewSteep), 2);
   if (this->HasQuadratic)
   {
-    this->weigh(this->SquaredReach, false, this->Weights);
+    this->weigh(this->SquaredReach, false);
     this->Mild.prepare(samples, this->Weights, this->HasGradients);
-    this->weigh(reachOf(fewSteep), true, this->Weights);
+    this->weigh(reachOf(fewSteep), true);
     this->Steep.prepare(samples, this->Weights, this->HasGradients);
   }
   this->HasCubic = areEnough(this->Count, 3);
   if (this->HasCubic)
   {
-    this->weigh(this->SquaredReach, true, this->Weights);
+    this->weigh(this->SquaredReach, true);
     this->Cubic.prepare(samples, this->Weights, this->HasGradients);
   }
   constexpr double inner = 4.0; // samples up to sqrt(3) / 2 of the reach count fully
@@ -257,7 +242,7 @@ bool PlaceFitter::isOutside() const
   constexpr double farthest = 0.9; // spacings
   const std::size_t count = std::min(this->AllCount, countForOutside);
   const FrameSamples& samples = this->Samples;
-  const double squared = samples.squaredDistance[0] + this->Height;
+  const double squared = samples.squaredDistance[0];
   if (!(squared > 0.0))
   {
     return false;
@@ -265,11 +250,14 @@ bool PlaceFitter::isOutside() const
   std::array<double, countForOutside> apart{}; // squared distances from the nearest sample
   std::array<Vector, countForOutside> directions{};
   Vector point{};
+  bool isAtSample = false;
   for (std::size_t i = 0; i < count; ++i)
   {
-    const Vector offset{ samples.x[i], samples.y[i], samples.z[i] };
+    Vector offset{ samples.x[i], samples.y[i], samples.z[i] };
     const Vector fromNearest = offset - Vector{ samples.x[0], samples.y[0], samples.z[0] };
     apart[i] = dot(fromNearest, fromNearest);
+    std::fill(offset.begin() + this->Dimensions, offset.end(), 0.0); // along flat samples
+    isAtSample = isAtSample || !(dot(offset, offset) > 0.0);
     directions[i] = directionOf(offset);
     point += directions[i];
   }
@@ -280,7 +268,7 @@ bool PlaceFitter::isOutside() const
   {
     return true;
   }
-  if (!(samples.squaredDistance[0] > 0.0))
+  if (isAtSample)
   {
     return false;
   }
@@ -527,9 +515,10 @@ void PlaceFitter::limit(const std::vector<SampleNumbers>& values)
 /// A gradient in the frame of the samples, in space.
 Vector PlaceFitter::inSpace(const Vector& gradient) const
 {
-  return this->PerUnit * (this->IsFlat ? gradient[0] * this->Axes[0] + gradient[1] * this->Axes[1] +
-                                           gradient[2] * this->Axes[2]
-                                       : gradient);
+  return this->PerUnit * (this->IsTurned
+                             ? gradient[0] * this->Axes[0] + gradient[1] * this->Axes[1] +
+                                 gradient[2] * this->Axes[2]
+                             : gradient);
 }
 
 } // namespace isopoint

@@ -33,7 +33,7 @@ public:
 
   /// Whether the samples are in a plane, on a line or at one place: then the fit is that in the
   /// plane, at the nearest point to the place, and the gradient has no part across.
-  bool isFlat() const { return this->IsFlat; }
+  bool isFlat() const { return this->Dimensions < 3; }
 
   /// Whether the place is outside the samples: they are all on one side, or far.
   bool isOutside() const;
@@ -58,10 +58,10 @@ public:
 
 private:
   void add(const std::vector<Vector>& offsets);
-  void flatten(const std::vector<Vector>& offsets);
-  void weigh(double squaredReach, bool isSteep, FrameWeights& weights) const;
-  template <int Degree>
-  void makeStencil();
+  void turn(const std::vector<Vector>& offsets);
+  void weigh(double squaredReach, bool isSteep);
+  template <class Fit>
+  void makeStencil(Fit& fit);
   void prepareBlend();
   void applyStencil(const std::vector<SampleNumbers>& values);
   void blend(const std::vector<SampleNumbers>& values, double valueError);
@@ -71,18 +71,18 @@ private:
 
   const PlaceMethod Method;
   const bool HasGradients;
-  FrameSamples Samples; // in units near the reach, turned if flat
+  FrameSamples Samples; // in units near the reach
   std::size_t Count = 0;
   std::size_t AllCount = 0;
   double PerUnit = 1.0;
   double SquaredReach = 0.0; // in units
-  bool IsFlat = false;
-  std::array<Vector, 3> Axes{}; // of flat samples; 0 across
-  double Height = 0.0;          // squared distance of the place from flat samples
+  bool IsTurned = false;
+  std::array<Vector, 3> Axes{};  // of turned samples
+  Vector Mean{};                 // of these, along the axes
+  std::ptrdiff_t Dimensions = 3; // in which samples differ
   FrameWeights Weights;
   std::array<SampleNumbers, laneCount> Stencil;
 
-  // Of Blend:
   OrthonormalFit<1> Affine;
   OrthonormalFit<2> Mild;
   OrthonormalFit<2> Steep;

@@ -21,7 +21,7 @@ enum class PlaceMethod : std::uint8_t
 /// How many positions a method fits to. One more limits their weights.
 constexpr std::size_t fittedCount(PlaceMethod method)
 {
-  constexpr std::array<std::size_t, 5> counts{ 64, 48, 27, 12, 1 };
+  constexpr std::array<std::size_t, 5> counts{ 64, 48, 27, 13, 1 };
   return counts[static_cast<std::size_t>(method)];
 }
 

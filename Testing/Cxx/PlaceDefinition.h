@@ -6,8 +6,8 @@
 #include <Eigen/Dense>
 
 /// Values at places as docs/algorithm.md defines them in section 13, written down plainly and
-/// independently of the core: all samples sorted by distance, and polynomials made orthonormal one
-/// after the other (Gram and Schmidt). Equal to the core's except for rounding.
+/// independently of the core: all samples sorted by distance, and normal equations in long double.
+/// Equal to the core's except for rounding.
 namespace placedefinition
 {
 
@@ -21,13 +21,14 @@ using Eigen::VectorXd;
 struct Site
 {
   Vector3d offset;
+  double squaredDistance;
   std::uint64_t id; // the lowest
   VectorXd values;
 };
 
 inline std::size_t countOf(PlaceMethod method)
 {
-  return std::array<std::size_t, 5>{ 64, 48, 27, 12, 1 }[static_cast<std::size_t>(method)];
+  return std::array<std::size_t, 5>{ 64, 48, 27, 13, 1 }[static_cast<std::size_t>(method)];
 }
 
 /// All sites, nearest first. Values that are not finite count as missing.
@@ -43,7 +44,8 @@ inline std::vector<Site> sitesAround(
   for (const auto& [position, ids] : samples)
   {
     const Vector offset = position - place;
-    Site site{ { offset[0], offset[1], offset[2] }, ids.front(), VectorXd(array.components) };
+    Site site{ { offset[0], offset[1], offset[2] }, dot(offset, offset), ids.front(),
+      VectorXd(array.components) };
     for (int c = 0; c < array.components; ++c)
     {
       Numbers finite;
@@ -64,26 +66,17 @@ inline std::vector<Site> sitesAround(
   }
   std::sort(sites.begin(), sites.end(),
     [](const Site& a, const Site& b)
-    {
-      const auto distance = [](const Site& site)
-      {
-        return dot(Vector{ site.offset[0], site.offset[1], site.offset[2] },
-          Vector{ site.offset[0], site.offset[1], site.offset[2] });
-      };
-      return std::make_pair(distance(a), a.id) < std::make_pair(distance(b), b.id);
-    });
+    { return std::make_pair(a.squaredDistance, a.id) < std::make_pair(b.squaredDistance, b.id); });
   return sites;
 }
 
-/// The samples of a fit, in units, flattened (13.1).
+/// The samples of a fit, in units and along axes (13.1).
 struct Around
 {
   std::vector<Site> sites;
   std::size_t count; // to fit to
   double unit = 1.0;
   double squaredReach;
-  double squaredHeight = 0.0;
-  bool isFlat = false;
   std::array<Vector3d, 3> axes{ Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ() };
 
   Around(std::vector<Site> all, std::size_t most, double reach)
@@ -91,14 +84,19 @@ struct Around
     , count(most)
   {
     this->unit = reach > 0.0 ? std::exp2(std::floor(std::log2(reach))) : 1.0;
-    this->squaredReach = reach / this->unit * (reach / this->unit);
     for (Site& site : this->sites)
     {
       site.offset /= this->unit;
+      site.squaredDistance = site.offset.squaredNorm();
+    }
+    this->squaredReach = std::pow(reach / this->unit, 2);
+    if (this->sites[0].squaredDistance >= (1.0 - 1e-9) * this->squaredReach)
+    {
+      this->squaredReach *= 1.21;
     }
     const double whole = this->count == this->sites.size()
                            ? this->squaredReach
-                           : 1.21 * this->sites.back().offset.squaredNorm();
+                           : 1.21 * this->sites.back().squaredDistance;
     const VectorXd w = this->weights(whole, false);
     Vector3d mean = Vector3d::Zero();
     for (std::size_t i = 0; i < this->sites.size(); ++i)
@@ -112,23 +110,23 @@ struct Around
       covariance += w[static_cast<Index>(i)] * offset * offset.transpose();
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-    this->isFlat = !(solver.eigenvalues()[0] > 1e-7 * solver.eigenvalues()[2]);
-    if (!this->isFlat)
+    const Vector3d& values = solver.eigenvalues();
+    if (values[0] > 0.02 * values[2])
     {
       return;
     }
     for (int axis = 0; axis < 3; ++axis)
     {
-      const Vector3d direction = solver.eigenvectors().col(2 - axis);
-      const bool isThin = !(solver.eigenvalues()[2 - axis] > 1e-7 * solver.eigenvalues()[2]);
-      this->squaredHeight += isThin ? std::pow(mean.dot(direction), 2) : 0.0;
-      this->axes[static_cast<std::size_t>(axis)] = isThin ? Vector3d(Vector3d::Zero()) : direction;
+      this->axes[static_cast<std::size_t>(axis)] = solver.eigenvectors().col(2 - axis);
     }
-    this->squaredReach = std::max(0.0, this->squaredReach - this->squaredHeight);
     for (Site& site : this->sites)
     {
-      site.offset = Vector3d(site.offset.dot(this->axes[0]), site.offset.dot(this->axes[1]),
-        site.offset.dot(this->axes[2]));
+      const Vector3d own = site.offset;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const bool isThin = !(values[2 - axis] > 1e-7 * values[2]);
+        site.offset[axis] = (isThin ? mean : own).dot(this->axes[static_cast<std::size_t>(axis)]);
+      }
     }
   }
 
@@ -137,12 +135,12 @@ struct Around
     double h = 0.0;
     for (const Site& site : this->sites)
     {
-      h += site.offset.norm() / static_cast<double>(this->sites.size());
+      h += std::sqrt(site.squaredDistance) / static_cast<double>(this->sites.size());
     }
     VectorXd w(this->sites.size());
     for (std::size_t i = 0; i < this->sites.size(); ++i)
     {
-      const double d = this->sites[i].offset.squaredNorm();
+      const double d = this->sites[i].squaredDistance;
       const double taper = std::pow(std::max(0.0, 1.0 - (squared > 0.0 ? d / squared : 0.0)), 2);
       w[static_cast<Index>(i)] =
         isSteep ? taper / std::pow(0.1 + (h > 0.0 ? d / (h * h) : 0.0), 3) : taper;
@@ -169,52 +167,53 @@ struct Fit
       { 3, 0, 0 }, { 0, 3, 0 }, { 0, 0, 3 }, { 2, 1, 0 }, { 2, 0, 1 }, { 1, 2, 0 }, { 0, 2, 1 },
       { 1, 0, 2 }, { 0, 1, 2 }, { 1, 1, 1 } } };
     const Index size = degree == 1 ? 4 : degree == 2 ? 10 : 20;
-    MatrixXd q = MatrixXd::Zero(n, size);    // orthonormal polynomials at the samples
-    MatrixXd p = MatrixXd::Zero(size, size); // their coefficients
-    VectorXd shares = VectorXd::Zero(size);
-    for (Index j = 0; j < size; ++j)
+    using Wide = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+    Wide monomials(n, size);
+    for (Index i = 0; i < n; ++i)
     {
-      VectorXd column(n);
-      for (Index i = 0; i < n; ++i)
+      for (Index j = 0; j < size; ++j)
       {
-        column[i] = 1.0;
+        monomials(i, j) = 1.0L;
         for (int axis = 0; axis < 3; ++axis)
         {
-          column[i] *= std::pow(around.sites[static_cast<std::size_t>(i)].offset[axis],
+          monomials(i, j) *= std::pow(
+            static_cast<long double>(around.sites[static_cast<std::size_t>(i)].offset[axis]),
             powers[static_cast<std::size_t>(j)][static_cast<std::size_t>(axis)]);
         }
       }
-      const double diagonal = (w.array() * column.array().square()).sum();
-      VectorXd coefficients = VectorXd::Unit(size, j);
-      for (int twice = 0; twice < 2; ++twice)
+    }
+    const Wide normal =
+      monomials.transpose() * w.cast<long double>().asDiagonal() * monomials; // equations
+    Wide factor = Wide::Zero(size, size);
+    Wide inverse = Wide::Zero(size, size); // of the factor
+    for (Index j = 0; j < size; ++j)
+    {
+      const long double pivot = normal(j, j) - factor.row(j).squaredNorm();
+      if (pivot > 1e-7 * normal(j, j))
       {
-        for (Index k = 0; k < j; ++k)
+        const long double share = (pivot / normal(j, j) - 1e-7L) / (1e-4L - 1e-7L);
+        const long double root = std::sqrt(pivot / std::min(1.0L, share));
+        for (Index k = j + 1; k < size; ++k)
         {
-          const double product = (w.array() * column.array() * q.col(k).array()).sum();
-          column -= product * q.col(k);
-          coefficients -= product * p.col(k);
+          factor(k, j) = (normal(k, j) - factor.row(k).dot(factor.row(j))) / root;
         }
-      }
-      const double pivot = (w.array() * column.array().square()).sum();
-      if (pivot > 1e-7 * diagonal)
-      {
-        q.col(j) = column / std::sqrt(pivot);
-        p.col(j) = coefficients / std::sqrt(pivot);
-        shares[j] = std::min(1.0, (pivot / diagonal - 1e-7) / (1e-5 - 1e-7));
+        inverse.row(j) = -factor.row(j) * inverse / root;
+        inverse(j, j) += 1.0L / root;
       }
     }
+    const MatrixXd q = (monomials * inverse.transpose()).cast<double>();
+    const MatrixXd p = inverse.transpose().cast<double>();
     MatrixXd values(n, components);
     for (Index i = 0; i < n; ++i)
     {
       values.row(i) = around.sites[static_cast<std::size_t>(i)].values.transpose();
     }
     const MatrixXd products = q.transpose() * w.asDiagonal() * values;
-    const MatrixXd effects = p.topRows(4) * shares.asDiagonal(); // on value and gradient
+    const MatrixXd effects = p.topRows(4); // on value and gradient
     this->atPlace = effects * products;
     this->mean = products.row(0).transpose() * q(0, 0);
-    const VectorXd rests =
-      (1.0 - (w.array() * (q.array().square().matrix() * shares).array())).matrix();
-    this->residuals = values - q * shares.asDiagonal() * products;
+    const VectorXd rests = 1.0 - w.array() * q.array().square().rowwise().sum();
+    this->residuals = values - q * products;
     double squares = 0.0;
     for (Index i = 0; i < n; ++i)
     {
@@ -246,7 +245,7 @@ inline bool isEnough(std::size_t count, int degree)
 inline MatrixXd blended(const Around& around, double valueError)
 {
   const auto squaredReach = [&](std::size_t few)
-  { return few < around.count ? around.sites[few].offset.squaredNorm() : around.squaredReach; };
+  { return few < around.count ? around.sites[few].squaredDistance : around.squaredReach; };
   std::vector<Fit> fits;
   fits.emplace_back(around, around.weights(squaredReach(24), false), 1, valueError);
   if (isEnough(std::min<std::size_t>(around.count, 40), 2))
@@ -287,7 +286,7 @@ inline MatrixXd blended(const Around& around, double valueError)
   double worst = 0.0;
   for (std::size_t i = 0; i < around.count; ++i)
   {
-    const double d = around.sites[i].offset.squaredNorm();
+    const double d = around.sites[i].squaredDistance;
     const double limit = std::min(
       1.0, 4.0 * std::max(0.0, 1.0 - (around.squaredReach > 0.0 ? d / around.squaredReach : 0.0)));
     const VectorXd difference = limit * (around.sites[i].values - mean);

@@ -192,6 +192,37 @@ TEST(Places, ReproduceConstantsAndAffineFunctionsAndIgnoreTheOrderOfSamples)
   }
 }
 
+TEST(Places, SamplesAtOneDistanceHaveWeights)
+{
+  // All permutations and signs of (1, 2, 3): more than most methods fit to.
+  Cloud shell;
+  Vector place{ 1.0, 2.0, 3.0 };
+  do
+  {
+    for (int signs = 0; signs < 8; ++signs)
+    {
+      shell.add({ (signs & 1) != 0 ? -place[0] : place[0], (signs & 2) != 0 ? -place[1] : place[1],
+                  (signs & 4) != 0 ? -place[2] : place[2] },
+        0.0);
+    }
+  } while (std::next_permutation(place.begin(), place.end()));
+  // A cubic close packing: twelve nearest samples around each.
+  Cloud packing = clouds::filtered(clouds::lattice(9, 9, 9),
+    [](const Vector& p) { return std::lround(8.0 * (p[0] + p[1] + p[2])) % 2 == 0; });
+  for (Cloud* const cloud : { &shell, &packing })
+  {
+    *cloud = clouds::withValuesOf(*cloud, affine);
+    const Vector middle = cloud == &shell ? Vector{ 0.0, 0.0, 0.0 } : Vector{ 0.5, 0.5, 0.5 };
+    for (const PlaceMethod method :
+      { PlaceMethod::Blend, PlaceMethod::Cubic, PlaceMethod::Quadratic, PlaceMethod::Affine })
+    {
+      const Probed found = probe(*cloud, { middle }, optionsOf(method), { { cloud->values } });
+      EXPECT_NEAR(found.values[0][0], affine(middle), 1e-12);
+      EXPECT_NEAR(found.gradients[0][0], 1.7, 1e-10);
+    }
+  }
+}
+
 TEST(Places, FlatCloudsGiveTheValuesThatTheyDetermine)
 {
   const auto field = [](const Vector& p) { return std::sin(2.0 * p[0]) + p[1] * p[1]; };
@@ -327,6 +358,11 @@ TEST(Places, AreContinuousAndStayInTheRange)
       EXPECT_LE(fine.second, 0.2 * coarse.second) << int(method);
     }
   }
+  // Between layers results are steep, but a sample of the next one never enters with full weight.
+  const Cloud inLayers = layers(20000, 10, 11);
+  auto ofLayers = clouds::loaded(inLayers);
+  EXPECT_LE(
+    largestJumps(ofLayers, { inLayers.values }, PlaceMethod::Cubic, 0.001 * spacing).first, 0.05);
   const std::vector<Vector> all = randomPlaces(cloud, 5000, 0.05, 0.95, 4);
   const Probed found = probe(extractor, all, optionsOf(PlaceMethod::Blend), { arrays[2] });
   const auto [least, greatest] =
