@@ -26,6 +26,10 @@ T numberAs(double number)
   {
     return static_cast<T>(number);
   }
+  if (number != std::trunc(number))
+  {
+    return T{ 0 };
+  }
   // The greatest wide integers are no double, but the next power of two is.
   const bool isInside = number >= static_cast<double>(std::numeric_limits<T>::lowest()) &&
                         number < std::ldexp(1.0, std::numeric_limits<T>::digits);
@@ -180,7 +184,9 @@ isopoint_weights isopoint_neighborhoods::weights()
       {
         const double* const of =
           this->found.weights.data() + laneCount * (this->found.begins[place] + i);
-        const std::size_t end = around.idBegins[i + 1];
+        // NEAREST takes the first of coincident samples, other methods their mean.
+        const bool isFirst = this->found.options.method == isopoint::PlaceMethod::Nearest;
+        const std::size_t end = isFirst ? around.idBegins[i] + 1 : around.idBegins[i + 1];
         const auto share = 1.0 / static_cast<double>(end - around.idBegins[i]);
         for (std::size_t id = around.idBegins[i]; id < end; ++id)
         {

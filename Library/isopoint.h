@@ -22,8 +22,8 @@
  *   isopoint_destroy_surface(surface);
  *   isopoint_destroy_extractor(extractor);
  *
- * Threads: use each extractor and each surface on one thread at a time. Different objects,
- * including an extractor and its surfaces, may be used on different threads at the same time.
+ * Threads: use each extractor, surface and isopoint_neighborhoods on one thread at a time. Different
+ * objects, also an extractor and what it made, may be used on different threads at the same time.
  * Results do not depend on the number of threads. A process forked from one that used several
  * threads uses one. In a process forked during a call, all calls fail.
  *
@@ -178,9 +178,9 @@ ISOPOINT_API const char* isopoint_get_error(void);
 ISOPOINT_API isopoint_status isopoint_set_threads(isopoint_extractor* extractor, int32_t threads);
 
 /* Sets callbacks, or removes them with null, the default. They run on the thread of the call and
- * must not use its extractor or surface. They apply to isopoint_set_samples() and isopoint_extract().
- * Surfaces extracted afterwards use them too, until isopoint_set_surface_callbacks() replaces them;
- * `user` must outlive these.
+ * must not use its extractor or surface. They apply to calls that load, extract or probe. Surfaces
+ * extracted and neighborhoods found afterwards use them too, those of surfaces until
+ * isopoint_set_surface_callbacks() replaces them; `user` must outlive these.
  * @param progress(user, fraction) the share of the call that is done, 0 to 1, ascending
  * @param cancels(user) called every few tens of milliseconds; nonzero ends the call, which returns
  * ISOPOINT_CANCELED and leaves the extractor usable */
@@ -263,17 +263,19 @@ enum
 /* Interpolates arrays at places: a fit to the nearest samples, its value and its gradient. Search
  * and weights are computed once for all arrays. The values of isopoint_set_samples() take no part.
  *
- * A place is outside if all samples around are on one side of it, or if the nearest one is farther
- * than 0.9 times the distance between this one and the eighth nearest to it. A place at a sample is
- * inside. Where samples are flat, results are those at the nearest point of their plane or line, and
+ * A place is outside if the 27 nearest samples are on one side of it, or if the nearest one is
+ * farther than 0.9 times the distance between this one and the eighth nearest to it. A place at a
+ * sample, or within a thousandth of this distance, is inside. Where samples are flat, results are those at the nearest point of their plane or line, and
  * gradients have no part across. A sample whose value is not finite does not exist for its array;
- * one array then may be outside where others are not. Coincident samples count as one, with the
- * mean value. BLEND fits all components of an array alike, so that turned vectors give turned
+ * one array then may be outside where others are not, and gets the number, whatever `outside` says,
+ * where none of the nearest samples (64 with BLEND, 48 with CUBIC, otherwise 27) has a value.
+ * Coincident samples count as one, with the mean value; NEAREST takes the first that has one. BLEND fits all components of an array alike, so that turned vectors give turned
  * results; its values leave the range of the samples around only at extrema that these show. Values
  * of integer types are taken as rounded. Coordinates that are not finite give places outside.
  * Outside, gradients are NaN for NUMBER and 0 for NEAREST, and integers of NEAREST are 0 if the
  * number is not one of their type. Places may be in any order; those in the order of the tree are no
- * faster. O(log n) for each place after O(n) for the first.
+ * faster. O(log n) for each place after O(n) for the first, except where very many samples have the
+ * same distance. Coordinates whose squared distances overflow count as not finite.
  * @param places of type float or double, three components
  * @param arrays `array_count` arrays, each of as many tuples as there were samples
  * @param options null for the defaults
@@ -285,7 +287,7 @@ ISOPOINT_API isopoint_status isopoint_probe(isopoint_extractor* extractor,
 
 /* The samples around places, kept so that later arrays, such as those of other time steps, cost only
  * the products with weights; with BLEND, the fits. Takes 0.3 kB a place with BLEND, up to 1.7 kB with
- * other methods, and memory for all samples around. */
+ * other methods, and memory for all samples around; twice as much while they are found. */
 typedef struct isopoint_neighborhoods isopoint_neighborhoods;
 
 /* Finds the samples around places. Parameters as isopoint_probe().
@@ -302,7 +304,7 @@ ISOPOINT_API isopoint_status isopoint_probe_neighborhoods(
   const isopoint_probed* results, uint8_t* kinds);
 
 /* Weights of samples: a sparse matrix with a row for each place, in compressed rows. Its product
- * with an array is the value at each place. Coincident samples share a weight. */
+ * with an array is the value at each place. Coincident samples share a weight, but for NEAREST. */
 typedef struct isopoint_weights
 {
   int64_t row_count;

@@ -87,12 +87,6 @@ public:
   /// Adds a sample; `most` is the limit.
   void add(const Vector& offset, double sampleValue)
   {
-    this->add(offset, sampleValue, dot(offset, offset));
-  }
-
-  /// The same, with a squared distance that differs from that of the offset.
-  void add(const Vector& offset, double sampleValue, double squared)
-  {
     if (this->Count % laneCount == 0)
     {
       this->clearGroup(this->Count / laneCount);
@@ -101,6 +95,7 @@ public:
     this->y[this->Count] = offset[1];
     this->z[this->Count] = offset[2];
     this->value[this->Count] = sampleValue;
+    const double squared = dot(offset, offset);
     this->squaredDistance[this->Count] = squared;
     this->DistanceSums[static_cast<Eigen::Index>(this->Count % laneCount)] += std::sqrt(squared);
     ++this->Count;

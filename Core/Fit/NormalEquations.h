@@ -199,10 +199,28 @@ private:
   double Sums[size][size][size];
 };
 
+/// Fades out coefficients that samples hardly determine, so that results are continuous where
+/// samples begin to: pivots are divided by a number that falls to 0, which draws coefficients
+/// towards 0 (a ridge).
+struct Fading
+{
+  double determined; // from this share of its diagonal element on, a pivot counts in full
+  Vector extents{};  // how far monomials of each coordinate count, 0 to 1
+
+  double of(std::size_t coefficient, double pivotShare) const
+  {
+    double factor = std::min(1.0, (pivotShare - minPivot) / (this->determined - minPivot));
+    for (; coefficient > 0; coefficient = coordinateProducts[coefficient].former)
+    {
+      factor = std::min(factor, this->extents[coordinateProducts[coefficient].axis]);
+    }
+    return factor;
+  }
+};
+
 /// The Cholesky factor L of the normal equations of weighted least-squares polynomials, which
 /// depends on positions and weights alone. Its leading blocks are those of lower degrees. A
-/// coefficient that the samples do not determine is left out, as if it were 0; one that they hardly
-/// determine is drawn towards 0.
+/// coefficient that the samples do not determine is left out, as if it were 0.
 template <int Degree>
 class CholeskyFactor
 {
@@ -210,21 +228,19 @@ public:
   static constexpr std::size_t size = coefficientCount(Degree);
 
   /// O(samples)
-  /// @param determined the share of its diagonal element from which a pivot counts in full. Below,
-  /// down to minPivot, it is divided by a number that falls to 0 (a ridge), so that results are
-  /// continuous where samples begin to determine a coefficient
-  CholeskyFactor(
-    const FrameSamples& samples, const FrameWeights& weights, double determined = minPivot)
-    : FullShare(determined)
+  CholeskyFactor(const FrameSamples& samples, const FrameWeights& weights)
+    : CholeskyFactor(Moments<2 * Degree>(samples, weights), nullptr)
   {
-    this->factor(Moments<2 * Degree>(samples, weights), std::make_index_sequence<size>());
+  }
+
+  /// @param fading null: all coefficients that are not left out count in full
+  CholeskyFactor(const Moments<2 * Degree>& moments, const Fading* fading)
+  {
+    this->factor(moments, fading, std::make_index_sequence<size>());
   }
 
   /// The highest degree whose coefficients the samples determine; 0 if none.
   int determinedDegree() const { return this->Determined; }
-
-  double pivot(std::size_t i) const { return this->Pivots[i]; }
-  double diagonal(std::size_t i) const { return this->Diagonal[i]; }
 
   /// Replaces p by L^-1 p. p has the monomials at a place (or several, side by side), or is the
   /// unit vector of a coefficient. For two such vectors, u . v is the effect of a value of weight 1
@@ -281,9 +297,10 @@ private:
 
   /// The columns of L, with zeros on and above the diagonal.
   template <std::size_t... Indices>
-  void factor(const Moments<2 * Degree>& moments, std::index_sequence<Indices...>)
+  void factor(
+    const Moments<2 * Degree>& moments, const Fading* fading, std::index_sequence<Indices...>)
   {
-    (this->factorColumn<Indices>(moments, std::make_index_sequence<size>()), ...);
+    (this->factorColumn<Indices>(moments, fading, std::make_index_sequence<size>()), ...);
     std::size_t determined = 0;
     while (determined<size&& this->Reciprocals[determined]> 0.0)
     {
@@ -296,7 +313,8 @@ private:
   }
 
   template <std::size_t Index, std::size_t... Rows>
-  void factorColumn(const Moments<2 * Degree>& moments, std::index_sequence<Rows...>)
+  void factorColumn(
+    const Moments<2 * Degree>& moments, const Fading* fading, std::index_sequence<Rows...>)
   {
     constexpr std::size_t first = Index / 2 * 2; // whole pairs
     alignas(16) Column rest;
@@ -311,8 +329,6 @@ private:
       }
     }
     const double pivot = rest[Index];
-    this->Diagonal[Index] = diagonal;
-    this->Pivots[Index] = pivot;
     if (!(pivot > minPivot * diagonal) || !std::isfinite(pivot))
     {
       this->Reciprocals[Index] = 0.0;
@@ -320,10 +336,9 @@ private:
       return;
     }
     this->Reciprocals[Index] = 1.0 / std::sqrt(pivot);
-    if (pivot < this->FullShare * diagonal)
+    if (fading)
     {
-      this->Reciprocals[Index] *=
-        std::sqrt((pivot - minPivot * diagonal) / ((this->FullShare - minPivot) * diagonal));
+      this->Reciprocals[Index] *= std::sqrt(fading->of(Index, pivot / diagonal));
     }
     for (std::size_t row = first; row < rest.size(); ++row)
     {
@@ -337,9 +352,6 @@ private:
 
   alignas(16) std::array<Column, size> Columns; // of L, below the diagonal
   std::array<double, size> Reciprocals;         // of the diagonal of L; 0 if left out
-  std::array<double, size> Diagonal;            // of the normal equations
-  std::array<double, size> Pivots;
-  double FullShare;
   int Determined = 0;
 };
 

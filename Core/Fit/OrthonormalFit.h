@@ -4,17 +4,20 @@
 #include "Core/Fit/FrameSamples.h"
 #include "Core/Fit/Lanes.h"
 #include "Core/Fit/NormalEquations.h"
+#include "Core/Fit/PrincipalAxes.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 namespace isopoint
 {
 
 /// Weighted least squares around a place for any number of arrays: polynomials that are orthonormal
-/// over the samples, so that a fit is a few sums of products.
+/// over the samples, so that a fit is a few sums of products. Samples near a plane or a line are
+/// turned to their principal axes; what they hardly determine fades out.
 template <int Degree>
 class OrthonormalFit
 {
@@ -127,8 +130,63 @@ private:
 
   void makeBasis(const FrameSamples& samples, const FrameWeights& weights)
   {
+    constexpr double thin = 0.02;
+    const Moments<2 * Degree> moments(samples, weights);
+    const std::optional<PrincipalAxes> axes = thinAxes(covarianceOf(moments), thin);
+    if (!axes)
+    {
+      this->makeBasis(samples, weights, moments, { 1.0, 1.0, 1.0 });
+      return;
+    }
+    this->Turned.clear();
+    for (std::size_t i = 0; i < samples.count(); ++i)
+    {
+      const Vector offset{ samples.x[i], samples.y[i], samples.z[i] };
+      this->Turned.add(
+        { dot(offset, axes->axes[0]), dot(offset, axes->axes[1]), dot(offset, axes->axes[2]) },
+        0.0);
+    }
+    Vector extents{};
+    std::transform(axes->shares.begin(), axes->shares.end(), extents.begin(), extentOf);
+    this->makeBasis(this->Turned, weights, Moments<2 * Degree>(this->Turned, weights), extents);
+    for (Lanes& atPlace : this->AtPlace)
+    {
+      Vector gradient{};
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        gradient += atPlace[static_cast<Eigen::Index>(axis) + 1] * axes->axes[axis];
+      }
+      atPlace.template tail<3>() << gradient[0], gradient[1], gradient[2];
+    }
+  }
+
+  /// How far samples count that extend little along an axis, from 0 to 1.
+  /// @param share of the variance in the greatest
+  static double extentOf(double share)
+  {
+    constexpr double flat = 1e-4;
+    constexpr double solid = 1e-3;
+    return std::clamp((share - flat) / (solid - flat), 0.0, 1.0);
+  }
+
+  static std::array<Vector, 3> covarianceOf(const Moments<2 * Degree>& moments)
+  {
+    const Vector sums{ moments.at(1, 0, 0), moments.at(0, 1, 0), moments.at(0, 0, 1) };
+    const Vector mean = 1.0 / moments.at(0, 0, 0) * sums;
+    const double xy = moments.at(1, 1, 0);
+    const double xz = moments.at(1, 0, 1);
+    const double yz = moments.at(0, 1, 1);
+    return { Vector{ moments.at(2, 0, 0), xy, xz } - sums[0] * mean,
+      Vector{ xy, moments.at(0, 2, 0), yz } - sums[1] * mean,
+      Vector{ xz, yz, moments.at(0, 0, 2) } - sums[2] * mean };
+  }
+
+  void makeBasis(const FrameSamples& samples, const FrameWeights& weights,
+    const Moments<2 * Degree>& moments, const Vector& extents)
+  {
     constexpr double determined = 1e-4;
-    const CholeskyFactor<Degree> factor(samples, weights, determined);
+    const Fading fading{ determined, extents };
+    const CholeskyFactor<Degree> factor(moments, &fading);
     this->AtPlace.fill(Lanes::Zero());
     for (std::size_t i = 0; i < laneCount; ++i)
     {
@@ -202,6 +260,7 @@ private:
   /// replaces it.
   static constexpr double leastRest = 1e-3;
 
+  FrameSamples Turned; // to the axes of thin samples
   std::size_t Groups = 0;
   std::array<Numbers, size> Basis;
   std::array<Lanes, size> AtPlace; // value and gradient of each polynomial

@@ -4,8 +4,6 @@
 #include "Core/Fit/NormalEquations.h"
 #include "Core/Fit/PolynomialFit.h"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,6 +14,7 @@ namespace
 {
 
 constexpr double steepOffset = 0.1;
+constexpr std::size_t candidateCount = 4; // of the blend: affine, two quadratics, cubic
 
 /// The largest power of two up to a number, or 1 if its reciprocal is not exact.
 double unitOf(double size)
@@ -24,8 +23,23 @@ double unitOf(double size)
   return std::isnormal(unit) && std::isnormal(1.0 / unit) ? unit : 1.0;
 }
 
-/// The weight of an estimate among others by its variance: the inverse fourth power of its error,
-/// relative to the least one.
+/// A factor for values whose differences may overflow: a power of two, mostly 1.
+double shrinkFor(const std::vector<SampleNumbers>& values, std::size_t count)
+{
+  constexpr double large = 1e300;
+  double largest = 0.0;
+  for (const SampleNumbers& numbers : values)
+  {
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      largest = std::max(largest, std::abs(numbers[i]));
+    }
+  }
+  return largest > large ? std::ldexp(1.0, -20) : 1.0;
+}
+
+/// The weight of an estimate among others: the inverse square of its variance, relative to the
+/// least one.
 double shareOf(double variance, double least)
 {
   const double ratio = variance > least ? least / variance : 1.0;
@@ -34,29 +48,22 @@ double shareOf(double variance, double least)
 
 } // namespace
 
-void PlaceFitter::enter(const std::vector<Vector>& offsets, std::size_t count, double reach)
+void PlaceFitter::prepare(const std::vector<Vector>& offsets, std::size_t count, double reach)
 {
   constexpr double equal = 1.0 - 1e-9;
   constexpr double beyond = 1.21;
   this->PerUnit = 1.0 / unitOf(reach);
   this->SquaredReach = (this->PerUnit * reach) * (this->PerUnit * reach);
   this->Count = count;
-  this->AllCount = offsets.size();
-  this->IsTurned = false;
-  this->Dimensions = 3;
-  this->add(offsets);
+  this->Samples.clear();
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    this->Samples.add(this->PerUnit * offsets[i], 0.0);
+  }
   if (this->Samples.squaredDistance[0] >= equal * this->SquaredReach)
   {
     this->SquaredReach *= beyond; // the samples around have the same distance
   }
-  if (this->Method != PlaceMethod::Nearest || this->AllCount > 1)
-  {
-    this->turn(offsets);
-  }
-}
-
-void PlaceFitter::prepare()
-{
   switch (this->Method)
   {
     case PlaceMethod::Blend:
@@ -88,7 +95,7 @@ void PlaceFitter::prepare()
 
 void PlaceFitter::prepareFrom(const double* weights, std::size_t count)
 {
-  this->Count = this->AllCount = count;
+  this->Count = count;
   for (std::size_t i = 0; i < count; ++i)
   {
     for (std::size_t k = 0; k < laneCount; ++k)
@@ -96,80 +103,6 @@ void PlaceFitter::prepareFrom(const double* weights, std::size_t count)
       this->Stencil[k][i] = weights[laneCount * i + k];
     }
   }
-}
-
-/// Lists the samples along the axes, and replaces coordinates across flat ones by their mean.
-void PlaceFitter::add(const std::vector<Vector>& offsets)
-{
-  this->Samples.clear();
-  for (const Vector& offset : offsets)
-  {
-    Vector own = this->PerUnit * offset;
-    const double squared = dot(own, own);
-    if (this->IsTurned)
-    {
-      own = { dot(own, this->Axes[0]), dot(own, this->Axes[1]), dot(own, this->Axes[2]) };
-      for (auto axis = static_cast<std::size_t>(this->Dimensions); axis < 3; ++axis)
-      {
-        own[axis] = this->Mean[axis];
-      }
-    }
-    this->Samples.add(own, 0.0, squared);
-  }
-}
-
-/// Turns samples that are nearly in a plane or on a line to their principal axes: so what they
-/// determine fades out as they become flat.
-void PlaceFitter::turn(const std::vector<Vector>& offsets)
-{
-  // Methods that fit to few samples know more, which tell whether the place is outside.
-  constexpr double beyond = 1.21;
-  constexpr double thin = 0.02; // share of eigenvalues
-  this->weigh(this->Count == this->AllCount
-                ? this->SquaredReach
-                : beyond * this->Samples.squaredDistance[this->AllCount - 1],
-    false);
-  const CholeskyFactor<1> factor(this->Samples, this->Weights);
-  // The product of the pivots is that of the covariance's eigenvalues. Their sum is at most that of
-  // the diagonal elements.
-  const double sum = factor.diagonal(1) + factor.diagonal(2) + factor.diagonal(3);
-  if (factor.pivot(1) * factor.pivot(2) * factor.pivot(3) > 4.0 / 27.0 * thin * sum * sum * sum)
-  {
-    return;
-  }
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  double total = 0.0;
-  const auto at = [this](std::size_t i)
-  { return Eigen::Vector3d(this->Samples.x[i], this->Samples.y[i], this->Samples.z[i]); };
-  for (std::size_t i = 0; i < this->AllCount; ++i)
-  {
-    mean += this->Weights[i] * at(i);
-    total += this->Weights[i];
-  }
-  mean /= total;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < this->AllCount; ++i)
-  {
-    const Eigen::Vector3d offset = at(i) - mean;
-    covariance += this->Weights[i] * offset * offset.transpose();
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-  const Eigen::Vector3d& values = solver.eigenvalues(); // ascending
-  if (values[0] > thin * values[2])
-  {
-    return;
-  }
-  this->IsTurned = true;
-  this->Dimensions = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const Eigen::Index column = 2 - static_cast<Eigen::Index>(axis);
-    const Eigen::Vector3d direction = solver.eigenvectors().col(column);
-    this->Axes[axis] = { direction[0], direction[1], direction[2] };
-    this->Mean[axis] = mean.dot(direction);
-    this->Dimensions += values[column] > minPivot * values[2] ? 1 : 0;
-  }
-  this->add(offsets);
 }
 
 /// Weights that vanish at a distance from the place.
@@ -194,13 +127,11 @@ template <class Fit>
 void PlaceFitter::makeStencil(Fit& fit)
 {
   fit.findEffects(this->Samples, this->Weights, this->Stencil);
-  for (std::size_t i = 0; i < this->Count; ++i)
+  for (std::size_t k = 1; k < laneCount; ++k)
   {
-    const Vector gradient =
-      this->inSpace({ this->Stencil[1][i], this->Stencil[2][i], this->Stencil[3][i] });
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t g = 0; g < this->Samples.groupCount(); ++g)
     {
-      this->Stencil[axis + 1][i] = gradient[axis];
+      this->Stencil[k].setGroup(g, this->PerUnit * this->Stencil[k].group(g));
     }
   }
 }
@@ -237,85 +168,22 @@ void PlaceFitter::prepareBlend()
   }
 }
 
-bool PlaceFitter::isOutside() const
-{
-  constexpr double farthest = 0.9; // spacings
-  const std::size_t count = std::min(this->AllCount, countForOutside);
-  const FrameSamples& samples = this->Samples;
-  const double squared = samples.squaredDistance[0];
-  if (!(squared > 0.0))
-  {
-    return false;
-  }
-  std::array<double, countForOutside> apart{}; // squared distances from the nearest sample
-  std::array<Vector, countForOutside> directions{};
-  Vector point{};
-  bool isAtSample = false;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    Vector offset{ samples.x[i], samples.y[i], samples.z[i] };
-    const Vector fromNearest = offset - Vector{ samples.x[0], samples.y[0], samples.z[0] };
-    apart[i] = dot(fromNearest, fromNearest);
-    std::fill(offset.begin() + this->Dimensions, offset.end(), 0.0); // along flat samples
-    isAtSample = isAtSample || !(dot(offset, offset) > 0.0);
-    directions[i] = directionOf(offset);
-    point += directions[i];
-  }
-  const auto eighth =
-    apart.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(8, count - 1));
-  std::nth_element(apart.begin(), eighth, apart.begin() + static_cast<std::ptrdiff_t>(count));
-  if (squared > farthest * farthest * *eighth)
-  {
-    return true;
-  }
-  if (isAtSample)
-  {
-    return false;
-  }
-  // The point of least length in the convex hull of the directions (Frank and Wolfe), until a plane
-  // through the place has all on one side.
-  constexpr int steps = 12;
-  constexpr double closest = 1e-6;
-  point = 1.0 / static_cast<double>(count) * point;
-  for (int step = 0; step < steps; ++step)
-  {
-    std::size_t least = 0;
-    double product = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      const double p = dot(point, directions[i]);
-      least = p < product ? i : least;
-      product = std::min(product, p);
-    }
-    if (dot(point, point) <= closest * closest)
-    {
-      return false;
-    }
-    if (product > 0.0)
-    {
-      return true;
-    }
-    const Vector towards = directions[least] - point;
-    const double share = -dot(point, towards) / dot(towards, towards);
-    point += std::min(1.0, std::max(0.0, share)) * towards;
-  }
-  return false;
-}
-
 void PlaceFitter::apply(
   std::vector<SampleNumbers>& values, double valueError, double* value, double* gradient)
 {
+  const double shrink = shrinkFor(values, this->Count);
   double largest = 0.0;
-  double least = values[0][0]; // of one component
+  double least = shrink * values[0][0]; // of one component
   double greatest = least;
   this->Bases.clear();
   this->Extends = false;
   for (SampleNumbers& numbers : values)
   {
-    const double base = numbers[0];
+    const double base = shrink * numbers[0];
     this->Bases.push_back(base);
     for (std::size_t i = 0; i < this->Count; ++i)
     {
+      numbers[i] *= shrink;
       least = std::min(least, numbers[i]);
       greatest = std::max(greatest, numbers[i]);
       numbers[i] -= base;
@@ -337,7 +205,7 @@ void PlaceFitter::apply(
           numbers.setGroup(g, 1.0 / unit * numbers.group(g));
         }
       }
-      this->blend(values, valueError / unit);
+      this->blend(values, shrink * valueError / unit);
     }
     else
     {
@@ -352,11 +220,15 @@ void PlaceFitter::apply(
     {
       value[c] = std::clamp(value[c], least, greatest); // may exceed them by rounding
     }
+    value[c] /= shrink;
     if (gradient)
     {
-      const Vector slope{ fitted[1], fitted[2], fitted[3] };
-      const Vector own = unit * (this->Method == PlaceMethod::Blend ? this->inSpace(slope) : slope);
-      std::copy(own.begin(), own.end(), gradient + 3 * c);
+      const double factor =
+        (this->Method == PlaceMethod::Blend ? unit * this->PerUnit : unit) / shrink;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        gradient[3 * c + axis] = factor * fitted[static_cast<Eigen::Index>(axis) + 1];
+      }
     }
   }
 }
@@ -384,10 +256,9 @@ void PlaceFitter::blend(const std::vector<SampleNumbers>& values, double valueEr
     double valueVariance = std::numeric_limits<double>::infinity();
     double gradientVariance = std::numeric_limits<double>::infinity();
   };
-  constexpr std::size_t candidates = 4;
   const std::size_t components = values.size();
-  std::array<Estimate, candidates> estimates;
-  this->Candidates.assign(candidates * components, Lanes::Zero());
+  std::array<Estimate, candidateCount> estimates;
+  this->Candidates.assign(candidateCount * components, Lanes::Zero());
   const double variance = static_cast<double>(components) * valueError * valueError;
   this->Means.resize(components);
   const auto estimate = [&](std::size_t candidate, const auto& fit)
@@ -420,7 +291,7 @@ void PlaceFitter::blend(const std::vector<SampleNumbers>& values, double valueEr
     least.gradientVariance = std::min(least.gradientVariance, one.gradientVariance);
   }
   Lanes total = Lanes::Zero();
-  for (std::size_t i = 0; i < candidates; ++i)
+  for (std::size_t i = 0; i < candidateCount; ++i)
   {
     Lanes share = Lanes::Constant(shareOf(estimates[i].gradientVariance, least.gradientVariance));
     share[0] = shareOf(estimates[i].valueVariance, least.valueVariance);
@@ -501,8 +372,14 @@ void PlaceFitter::limit(const std::vector<SampleNumbers>& values)
   const double most = components == 1 ? (difference > 0.0 ? greatest : -least) : std::sqrt(spread);
   if (length > most)
   {
+    double ofCubic = 0.0; // how far the cubic goes in the same direction
+    for (std::size_t c = 0; c < components && this->HasCubic; ++c)
+    {
+      ofCubic += (this->Candidates[(candidateCount - 1) * components + c][0] - this->Means[c]) *
+                 (this->Fitted[c][0] - this->Means[c]) / length;
+    }
     const double resolution = this->resolution(values, spread);
-    const double limited = most + resolution * (length - most);
+    const double limited = std::min(length, most + resolution * std::max(0.0, ofCubic - most));
     this->Extends = resolution > 0.0;
     for (std::size_t c = 0; c < components; ++c)
     {
@@ -510,15 +387,6 @@ void PlaceFitter::limit(const std::vector<SampleNumbers>& values)
         this->Means[c] + limited / length * (this->Fitted[c][0] - this->Means[c]);
     }
   }
-}
-
-/// A gradient in the frame of the samples, in space.
-Vector PlaceFitter::inSpace(const Vector& gradient) const
-{
-  return this->PerUnit * (this->IsTurned
-                             ? gradient[0] * this->Axes[0] + gradient[1] * this->Axes[1] +
-                                 gradient[2] * this->Axes[2]
-                             : gradient);
 }
 
 } // namespace isopoint

@@ -25,23 +25,13 @@ public:
   {
   }
 
-  /// Goes to a place. O(samples)
+  /// Prepares the fits at a place. O(samples)
   /// @param offsets of samples from the place, nearest first: at least one, different ones
   /// @param count how many to fit to, from the first on; up to fittedCount()
   /// @param reach distance at which weights are 0
-  void enter(const std::vector<Vector>& offsets, std::size_t count, double reach);
+  void prepare(const std::vector<Vector>& offsets, std::size_t count, double reach);
 
-  /// Whether the samples are in a plane, on a line or at one place: then the fit is that in the
-  /// plane, at the nearest point to the place, and the gradient has no part across.
-  bool isFlat() const { return this->Dimensions < 3; }
-
-  /// Whether the place is outside the samples: they are all on one side, or far.
-  bool isOutside() const;
-
-  /// Prepares fits at the place. O(samples)
-  void prepare();
-
-  /// The same from weights() of an earlier time, without enter(); unless the method is Blend.
+  /// The same from weights() of an earlier time, unless the method is Blend.
   /// @param weights four for each of `count` positions
   void prepareFrom(const double* weights, std::size_t count);
 
@@ -57,8 +47,6 @@ public:
     std::vector<SampleNumbers>& values, double valueError, double* value, double* gradient);
 
 private:
-  void add(const std::vector<Vector>& offsets);
-  void turn(const std::vector<Vector>& offsets);
   void weigh(double squaredReach, bool isSteep);
   template <class Fit>
   void makeStencil(Fit& fit);
@@ -67,19 +55,13 @@ private:
   void blend(const std::vector<SampleNumbers>& values, double valueError);
   double resolution(const std::vector<SampleNumbers>& values, double spread) const;
   void limit(const std::vector<SampleNumbers>& values);
-  Vector inSpace(const Vector& gradient) const;
 
   const PlaceMethod Method;
   const bool HasGradients;
   FrameSamples Samples; // in units near the reach
   std::size_t Count = 0;
-  std::size_t AllCount = 0;
   double PerUnit = 1.0;
   double SquaredReach = 0.0; // in units
-  bool IsTurned = false;
-  std::array<Vector, 3> Axes{};  // of turned samples
-  Vector Mean{};                 // of these, along the axes
-  std::ptrdiff_t Dimensions = 3; // in which samples differ
   FrameWeights Weights;
   std::array<SampleNumbers, laneCount> Stencil;
 

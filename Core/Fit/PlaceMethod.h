@@ -25,7 +25,4 @@ constexpr std::size_t fittedCount(PlaceMethod method)
   return counts[static_cast<std::size_t>(method)];
 }
 
-/// How many of the nearest positions tell whether a place is outside.
-constexpr std::size_t countForOutside = 27;
-
 } // namespace isopoint

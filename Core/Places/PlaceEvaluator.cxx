@@ -31,9 +31,7 @@ void Surroundings::setReach(std::size_t most, double next)
 
 std::size_t neededCount(const ProbeOptions& options)
 {
-  const std::size_t fitted = fittedCount(options.method);
-  return options.outside == OutsideStrategy::Extrapolate ? fitted
-                                                         : std::max(fitted, countForOutside);
+  return std::max(fittedCount(options.method), countForKinds);
 }
 
 PlaceEvaluator::PlaceEvaluator(const ProbeOptions& options, const std::vector<ProbedArray>& arrays)
@@ -47,15 +45,15 @@ PlaceEvaluator::PlaceEvaluator(const ProbeOptions& options, const std::vector<Pr
 std::uint8_t PlaceEvaluator::enter(const Surroundings& around)
 {
   this->IsPrepared = false;
-  if (around.offsets.empty())
-  {
-    return PlaceOutside;
-  }
-  this->Fitter.enter(around.offsets, around.fitted, around.reach);
-  const bool isOutside =
-    this->Options.outside != OutsideStrategy::Extrapolate && this->Fitter.isOutside();
-  return static_cast<std::uint8_t>(
-    (isOutside ? PlaceOutside : 0) | (this->Fitter.isFlat() ? PlaceFlat : 0));
+  return around.offsets.empty() ? std::uint8_t{ PlaceOutside } : this->kindsOf(around.offsets);
+}
+
+std::uint8_t PlaceEvaluator::kindsOf(const std::vector<Vector>& offsets) const
+{
+  const std::uint8_t kinds = placeKinds(offsets);
+  return this->Options.outside == OutsideStrategy::Extrapolate
+           ? static_cast<std::uint8_t>(kinds & ~PlaceOutside)
+           : kinds;
 }
 
 void PlaceEvaluator::writeWeights(const Surroundings& around, double* weights)
@@ -64,7 +62,7 @@ void PlaceEvaluator::writeWeights(const Surroundings& around, double* weights)
   {
     return;
   }
-  this->Fitter.prepare();
+  this->Fitter.prepare(around.offsets, around.fitted, around.reach);
   for (std::size_t i = 0; i < around.fitted; ++i)
   {
     for (std::size_t k = 0; k < laneCount; ++k)
@@ -99,7 +97,7 @@ void PlaceEvaluator::evaluate(std::size_t place, const Surroundings& around, std
     {
       if (!this->IsPrepared)
       {
-        this->Fitter.prepare();
+        this->Fitter.prepare(around.offsets, around.fitted, around.reach);
         this->IsPrepared = true;
       }
       this->apply(array, place, this->Fitter);
@@ -110,14 +108,10 @@ void PlaceEvaluator::evaluate(std::size_t place, const Surroundings& around, std
 void PlaceEvaluator::evaluateAgain(
   std::size_t place, const Surroundings& around, std::uint8_t kinds, const double* weights)
 {
+  this->IsPrepared = weights != nullptr;
   if (weights)
   {
     this->Fitter.prepareFrom(weights, around.fitted);
-    this->IsPrepared = true;
-  }
-  else
-  {
-    this->enter(around);
   }
   this->evaluate(place, around, kinds);
 }
@@ -183,13 +177,12 @@ void PlaceEvaluator::evaluateOwn(
     this->writeNothing(array, place);
     return;
   }
-  this->OwnFitter.enter(this->Own.offsets, fitted, around.reach);
-  if (this->Options.outside != OutsideStrategy::Extrapolate && this->OwnFitter.isOutside())
+  if ((this->kindsOf(this->Own.offsets) & PlaceOutside) != 0)
   {
     this->writeOutside(array, place);
     return;
   }
-  this->OwnFitter.prepare();
+  this->OwnFitter.prepare(this->Own.offsets, fitted, around.reach);
   this->apply(array, place, this->OwnFitter);
 }
 

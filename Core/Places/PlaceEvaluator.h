@@ -27,6 +27,8 @@ struct Surroundings
     this->offsets.clear();
     this->ids.clear();
     this->idBegins.assign(1, 0);
+    this->reach = 0.0;
+    this->fitted = 0;
   }
 
   std::size_t size() const { return this->offsets.size(); }
@@ -48,7 +50,7 @@ public:
   /// @param options, arrays must outlive the evaluator
   PlaceEvaluator(const ProbeOptions& options, const std::vector<ProbedArray>& arrays);
 
-  /// Goes to a place. O(samples) @returns PlaceKinds
+  /// Goes to a place. @returns PlaceKinds
   std::uint8_t enter(const Surroundings& around);
 
   /// Writes the results of all arrays at a place, after enter(). O(samples) for each
@@ -56,8 +58,7 @@ public:
   /// @param kinds as enter() returned
   void evaluate(std::size_t place, const Surroundings& around, std::uint8_t kinds);
 
-  /// The same without enter(), from weights() of an earlier time.
-  /// @param weights null if the method is Blend
+  /// The same without enter(). @param weights of an earlier time; null if the method is Blend
   void evaluateAgain(
     std::size_t place, const Surroundings& around, std::uint8_t kinds, const double* weights);
 
@@ -66,6 +67,7 @@ public:
   void writeWeights(const Surroundings& around, double* weights);
 
 private:
+  std::uint8_t kindsOf(const std::vector<Vector>& offsets) const;
   bool read(const ProbedArray& array, const Surroundings& around);
   void evaluateOwn(const ProbedArray& array, std::size_t place, const Surroundings& around);
   void apply(const ProbedArray& array, std::size_t place, PlaceFitter& fitter);
@@ -78,7 +80,7 @@ private:
   const std::vector<ProbedArray>& Arrays;
   PlaceFitter Fitter;
   PlaceFitter OwnFitter;   // of an array that lacks values
-  bool IsPrepared = false; // the fitter, at the place
+  bool IsPrepared = false; // the fitter, for the place
   Surroundings Own;
   std::vector<SampleNumbers> Values; // by component, then position
   std::vector<double> Numbers;       // by id

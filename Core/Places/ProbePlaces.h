@@ -3,6 +3,7 @@
 
 #include "Core/Base/Execution.h"
 #include "Core/Base/Lists.h"
+#include "Core/Base/Region.h"
 #include "Core/Base/Vector.h"
 #include "Core/Neighbors/NearestSamples.h"
 #include "Core/Places/PlaceEvaluator.h"
@@ -62,6 +63,7 @@ public:
     , Search(tree)
     , Fitted(fittedCount(options.method))
     , Needed(neededCount(options))
+    , IgnoresFar(options.outside == OutsideStrategy::Number)
   {
   }
 
@@ -70,7 +72,7 @@ public:
   bool search(const Vector& place, std::vector<MissingNode>& missing)
   {
     this->Around.clear();
-    if (!isFinite(place))
+    if (!isFinite(place) || (this->IgnoresFar && this->isFar(place)))
     {
       return true;
     }
@@ -105,10 +107,25 @@ public:
   const std::vector<NearSample<TSample>>& found() const { return this->Search.found(); }
 
 private:
+  /// Whether a place is outside for certain: farther from the samples than these are from each
+  /// other. There, distances are equal up to rounding, and a search may visit all samples.
+  bool isFar(const Vector& place) const
+  {
+    const Region& region = this->Tree.region;
+    double beyond = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      beyond =
+        std::max({ beyond, region.lower[axis] - place[axis], place[axis] - region.upper[axis] });
+    }
+    return beyond > lengthOf(region.upper - region.lower);
+  }
+
   const SampleTree<TSample>& Tree;
   NearestSamples<TSample> Search;
   const std::size_t Fitted;
   const std::size_t Needed;
+  const bool IgnoresFar;
   Surroundings Around;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Core/Fit/PlaceMethod.h"
+#include "Core/Places/PlaceKind.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -42,13 +43,6 @@ struct ProbedArray
   /// components are all finite, or null if there is none or the place is outside: for
   /// PlaceMethod::Nearest, which keeps types. On one rank only.
   std::function<void(std::size_t place, const std::uint64_t* id)> take;
-};
-
-/// Properties of places, combined by bitwise or.
-enum PlaceKinds : std::uint8_t
-{
-  PlaceOutside = 1, // of the samples
-  PlaceFlat = 2     // the samples around are in a plane, on a line or at one place
 };
 
 } // namespace isopoint

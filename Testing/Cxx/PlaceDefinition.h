@@ -70,19 +70,19 @@ inline std::vector<Site> sitesAround(
   return sites;
 }
 
-/// The samples of a fit, in units and along axes (13.1).
+/// The samples that are fitted, in units (13.1).
 struct Around
 {
   std::vector<Site> sites;
   std::size_t count; // to fit to
   double unit = 1.0;
   double squaredReach;
-  std::array<Vector3d, 3> axes{ Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ() };
 
   Around(std::vector<Site> all, std::size_t most, double reach)
     : sites(std::move(all))
     , count(most)
   {
+    this->sites.resize(this->count);
     this->unit = reach > 0.0 ? std::exp2(std::floor(std::log2(reach))) : 1.0;
     for (Site& site : this->sites)
     {
@@ -93,40 +93,6 @@ struct Around
     if (this->sites[0].squaredDistance >= (1.0 - 1e-9) * this->squaredReach)
     {
       this->squaredReach *= 1.21;
-    }
-    const double whole = this->count == this->sites.size()
-                           ? this->squaredReach
-                           : 1.21 * this->sites.back().squaredDistance;
-    const VectorXd w = this->weights(whole, false);
-    Vector3d mean = Vector3d::Zero();
-    for (std::size_t i = 0; i < this->sites.size(); ++i)
-    {
-      mean += w[static_cast<Index>(i)] * this->sites[i].offset / w.sum();
-    }
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-    for (std::size_t i = 0; i < this->sites.size(); ++i)
-    {
-      const Vector3d offset = this->sites[i].offset - mean;
-      covariance += w[static_cast<Index>(i)] * offset * offset.transpose();
-    }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-    const Vector3d& values = solver.eigenvalues();
-    if (values[0] > 0.02 * values[2])
-    {
-      return;
-    }
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      this->axes[static_cast<std::size_t>(axis)] = solver.eigenvectors().col(2 - axis);
-    }
-    for (Site& site : this->sites)
-    {
-      const Vector3d own = site.offset;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        const bool isThin = !(values[2 - axis] > 1e-7 * values[2]);
-        site.offset[axis] = (isThin ? mean : own).dot(this->axes[static_cast<std::size_t>(axis)]);
-      }
     }
   }
 
@@ -167,17 +133,43 @@ struct Fit
       { 3, 0, 0 }, { 0, 3, 0 }, { 0, 0, 3 }, { 2, 1, 0 }, { 2, 0, 1 }, { 1, 2, 0 }, { 0, 2, 1 },
       { 1, 0, 2 }, { 0, 1, 2 }, { 1, 1, 1 } } };
     const Index size = degree == 1 ? 4 : degree == 2 ? 10 : 20;
+    // Thin samples are turned to their axes.
+    Vector3d mean3 = Vector3d::Zero();
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    for (Index i = 0; i < n; ++i)
+    {
+      mean3 += w[i] / w.sum() * around.sites[static_cast<std::size_t>(i)].offset;
+    }
+    for (Index i = 0; i < n; ++i)
+    {
+      const Vector3d offset = around.sites[static_cast<std::size_t>(i)].offset - mean3;
+      covariance += w[i] * offset * offset.transpose();
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+    const Vector3d& variances = solver.eigenvalues();
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+    std::array<long double, 3> extents{ 1.0L, 1.0L, 1.0L };
+    if (!(variances[0] > 0.02 * variances[2]))
+    {
+      axes = solver.eigenvectors().rowwise().reverse();
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const double share = variances[2] > 0.0 ? variances[2 - axis] / variances[2] : 0.0;
+        extents[static_cast<std::size_t>(axis)] =
+          std::clamp((share - 1e-4) / (1e-3 - 1e-4), 0.0, 1.0);
+      }
+    }
     using Wide = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
     Wide monomials(n, size);
     for (Index i = 0; i < n; ++i)
     {
+      const Vector3d own = axes.transpose() * around.sites[static_cast<std::size_t>(i)].offset;
       for (Index j = 0; j < size; ++j)
       {
         monomials(i, j) = 1.0L;
         for (int axis = 0; axis < 3; ++axis)
         {
-          monomials(i, j) *= std::pow(
-            static_cast<long double>(around.sites[static_cast<std::size_t>(i)].offset[axis]),
+          monomials(i, j) *= std::pow(static_cast<long double>(own[axis]),
             powers[static_cast<std::size_t>(j)][static_cast<std::size_t>(axis)]);
         }
       }
@@ -191,8 +183,17 @@ struct Fit
       const long double pivot = normal(j, j) - factor.row(j).squaredNorm();
       if (pivot > 1e-7 * normal(j, j))
       {
-        const long double share = (pivot / normal(j, j) - 1e-7L) / (1e-4L - 1e-7L);
-        const long double root = std::sqrt(pivot / std::min(1.0L, share));
+        long double share = std::min(1.0L, (pivot / normal(j, j) - 1e-7L) / (1e-4L - 1e-7L));
+        for (std::size_t axis = 0; axis < 3; ++axis)
+        {
+          share =
+            powers[static_cast<std::size_t>(j)][axis] > 0 ? std::min(share, extents[axis]) : share;
+        }
+        if (share == 0.0L)
+        {
+          continue;
+        }
+        const long double root = std::sqrt(pivot / share);
         for (Index k = j + 1; k < size; ++k)
         {
           factor(k, j) = (normal(k, j) - factor.row(k).dot(factor.row(j))) / root;
@@ -209,7 +210,8 @@ struct Fit
       values.row(i) = around.sites[static_cast<std::size_t>(i)].values.transpose();
     }
     const MatrixXd products = q.transpose() * w.asDiagonal() * values;
-    const MatrixXd effects = p.topRows(4); // on value and gradient
+    MatrixXd effects = p.topRows(4); // on value and gradient
+    effects.bottomRows(3) = (axes * p.middleRows(1, 3)).eval();
     this->atPlace = effects * products;
     this->mean = products.row(0).transpose() * q(0, 0);
     const VectorXd rests = 1.0 - w.array() * q.array().square().rowwise().sum();
@@ -300,7 +302,10 @@ inline MatrixXd blended(const Around& around, double valueError)
   if (difference.norm() > most)
   {
     const double resolution = hasCubic ? std::clamp((0.1 - worst / spread) / 0.05, 0.0, 1.0) : 0.0;
-    const double limited = most + resolution * (difference.norm() - most);
+    const double ofCubic =
+      hasCubic ? (fits.back().atPlace.row(0).transpose() - mean).dot(difference.normalized()) : 0.0;
+    const double limited =
+      std::min(difference.norm(), most + resolution * std::max(0.0, ofCubic - most));
     result.row(0) = (mean + limited / difference.norm() * difference).transpose();
   }
   return result;
@@ -344,9 +349,7 @@ inline Result at(const clouds::Cloud& cloud, const Array& array, const Vector& p
       ? blended(around, array.valueError)
       : Fit(around, around.weights(around.squaredReach, method != PlaceMethod::Affine), degree, 0.0)
           .atPlace;
-  Eigen::Matrix3d axes;
-  axes << around.axes[0], around.axes[1], around.axes[2];
-  numbers.bottomRows(3) = axes * numbers.bottomRows(3) / around.unit;
+  numbers.bottomRows(3) /= around.unit;
   return { numbers };
 }
 

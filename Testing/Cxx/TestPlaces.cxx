@@ -266,11 +266,106 @@ TEST(Places, FlatCloudsGiveTheValuesThatTheyDetermine)
   }
 }
 
+TEST(Places, ColumnsAndSlabsGiveNothingAbsurd)
+{
+  const auto smooth = [](const Vector& p)
+  { return std::sin(3.0 * p[0]) + std::cos(2.0 * p[1]) + p[2]; };
+  Cloud columns;
+  const Cloud heads = clouds::uniform(300, 12);
+  for (std::size_t i = 0; i < 12 * heads.size(); ++i)
+  {
+    const Vector head = heads.at(i / 12);
+    columns.add({ head[0], head[1], 5e-4 * static_cast<double>(i % 12) }, 0.0);
+  }
+  columns = clouds::withValuesOf(columns, smooth);
+  std::vector<Vector> between;
+  for (const Vector& place : randomPlaces(Cloud(), 5000, 0.1, 0.9, 13))
+  {
+    between.push_back({ place[0], place[1], 0.006 * place[2] });
+  }
+  const Probed found =
+    probe(columns, between, optionsOf(PlaceMethod::Blend), { { columns.values } });
+  for (std::size_t i = 0; i < between.size(); ++i)
+  {
+    ASSERT_NEAR(found.values[0][i], smooth(between[i]), 0.5);
+  }
+  // A plane, rounded to float, is flat: gradients have no part across.
+  const Cloud rough = clouds::moved(clouds::flattened(clouds::uniform(20000, 14), 2),
+    [](double* p)
+    {
+      p[0] *= 0.02;
+      p[1] *= 0.02;
+      clouds::turn(p);
+      std::transform(
+        p, p + 3, p, [](double x) { return static_cast<double>(static_cast<float>(x + 8.0)); });
+    });
+  Vector normal{ 0.0, 0.0, 1.0 };
+  clouds::turn(normal.data());
+  std::vector<Vector> within;
+  for (std::size_t i = 0; i < 500; ++i)
+  {
+    within.push_back(0.5 * (rough.at(i) + rough.at(i + 1)));
+  }
+  for (const PlaceMethod method : { PlaceMethod::Blend, PlaceMethod::Cubic, PlaceMethod::Affine })
+  {
+    const Probed slopes = probe(rough, within, optionsOf(method), { { rough.values } });
+    for (std::size_t i = 0; i < within.size(); ++i)
+    {
+      ASSERT_NE(slopes.kinds[i] & PlaceFlat, 0);
+      const double* const g = slopes.gradients[0].data() + 3 * i;
+      const Vector gradient{ g[0], g[1], g[2] };
+      ASSERT_LE(std::abs(dot(gradient, normal)), 0.05 * lengthOf(gradient) + 1.0);
+    }
+  }
+  // In a thin slab values are those of a plane, with no jump where that is decided.
+  Cloud slab = clouds::scaled(clouds::uniform(3000, 15), 1.0, 1.0, 3e-5);
+  clouds::Random random(16);
+  for (double& value : slab.values)
+  {
+    value = random();
+  }
+  auto loaded = clouds::loaded(slab);
+  std::vector<Vector> line;
+  for (int i = 0; i <= 20000; ++i)
+  {
+    line.push_back({ 0.1 + 4e-5 * i, 0.2 + 3e-5 * i, 1.5e-5 });
+  }
+  const Probed along = probe(loaded, line, optionsOf(PlaceMethod::Cubic), { { slab.values } });
+  for (std::size_t i = 1; i < line.size(); ++i)
+  {
+    ASSERT_NEAR(along.values[0][i], along.values[0][i - 1], 0.05);
+  }
+}
+
+TEST(Places, OutsideIsTheSameForAllMethodsAndLargeValuesStayFinite)
+{
+  // Two planes that cross.
+  const Cloud cross = clouds::moved(clouds::uniform(2000, 17),
+    [](double* p) { p[static_cast<int>(1e6 * p[1]) % 2 == 0 ? 2 : 0] = 0.5; });
+  const std::vector<Vector> all = randomPlaces(cross, 2000, 0.0, 1.0, 18);
+  const ProbeOptions options = optionsOf(PlaceMethod::Blend, OutsideStrategy::Number);
+  const Probed first = probe(cross, all, options, { { cross.values } });
+  for (const PlaceMethod method : allMethods)
+  {
+    const Probed other =
+      probe(cross, all, optionsOf(method, OutsideStrategy::Number), { { cross.values } });
+    EXPECT_EQ(other.kinds, first.kinds);
+  }
+  Cloud large = clouds::uniform(2000, 19);
+  for (std::size_t i = 0; i < large.size(); ++i)
+  {
+    large.values[i] = large.at(i)[0] > 0.5 ? 1.7e308 : -1.7e308;
+  }
+  const Probed extreme = probe(large, all, optionsOf(PlaceMethod::Blend), { { large.values } });
+  EXPECT_EQ(
+    clouds::countOf(extreme.values[0], [](double value) { return !std::isfinite(value); }), 0u);
+}
+
 TEST(Places, FewSamplesGiveNothingBeyondTheirRange)
 {
   for (const std::size_t count : { 1, 2, 3, 4, 5, 8, 20 })
   {
-    const Cloud cloud = clouds::uniform(count, 20 + count);
+    const Cloud cloud = clouds::uniform(count, 30 + count); // four that are not nearly in a plane
     const auto [least, greatest] = std::minmax_element(cloud.values.begin(), cloud.values.end());
     std::vector<Vector> all = randomPlaces(cloud, 100, -0.5, 1.5, 4);
     all.push_back(cloud.at(0));
