@@ -279,6 +279,7 @@ TEST(Places, ColumnsAndSlabsGiveNothingAbsurd)
   }
   columns = clouds::withValuesOf(columns, smooth);
   std::vector<Vector> between;
+  between.reserve(5000);
   for (const Vector& place : randomPlaces(Cloud(), 5000, 0.1, 0.9, 13))
   {
     between.push_back({ place[0], place[1], 0.006 * place[2] });
