@@ -25,7 +25,7 @@ set(SCATTEREDISOPOINTS_PYTHON_BUILD_PATH "${CMAKE_BINARY_DIR}/${SCATTEREDISOPOIN
 set(built_package "${CMAKE_BINARY_DIR}/${package}")
 file(GLOB python_sources RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}/Python/scatteredisopoints" CONFIGURE_DEPENDS
   Python/scatteredisopoints/*.py)
-foreach (name IN ITEMS ScatteredIsopoints ScatteredIsosurface)
+foreach (name IN LISTS FILTER_NAMES)
   configure_file("${FILTER_PROPERTIES_DIR}/${name}.xml" "${built_package}/paraview/${name}.xml" COPYONLY)
 endforeach ()
 configure_file(Plugin/IsopointSplatPolygons.xml "${built_package}/paraview/IsopointSplatPolygons.xml" COPYONLY)

@@ -97,6 +97,7 @@ Options effectiveOptions(const Options& options)
   else
   {
     effective.regularize = defaults.regularize;
+    effective.keepHullSlivers = defaults.keepHullSlivers;
   }
   return effective;
 }
@@ -109,6 +110,7 @@ ExtractionRequest requestOf(const Options& options)
   request.isosurface.fit = fitRequestOf(options);
   request.isosurface.duplicatesCreaseVertices = options.computeNormals;
   request.isosurface.regularizes = options.regularize;
+  request.isosurface.keepsHullSlivers = options.keepHullSlivers;
   request.minimumSpacing = options.minimumSpacing;
   request.triangles = options.triangles;
   if (needsSplats(options))

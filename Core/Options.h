@@ -45,7 +45,8 @@ struct Options
   bool computeSplats = true;
 
   // Only for triangles:
-  bool regularize = true; // see IsosurfaceRequest::regularizes
+  bool regularize = true;       // see IsosurfaceRequest::regularizes
+  bool keepHullSlivers = false; // see IsosurfaceRequest::keepsHullSlivers
 
   /// See IsosurfaceRequest::keepsTetrahedra.
   bool keepTetrahedra = true;
@@ -87,6 +88,8 @@ inline constexpr Option<int> numberOfNeighbors{ "NumberOfNeighbors", &Options::n
 inline constexpr Option<bool> computeSplats{ "ComputeSplats", &Options::computeSplats, false,
   true };
 inline constexpr Option<bool> regularize{ "Regularize", &Options::regularize, false, true };
+inline constexpr Option<bool> keepHullSlivers{ "KeepHullSlivers", &Options::keepHullSlivers, false,
+  true };
 
 } // namespace option
 
@@ -104,6 +107,7 @@ void forEachOption(const Options& options, const Visitor& visit)
   if (options.triangles)
   {
     visit(option::regularize);
+    visit(option::keepHullSlivers);
   }
   else
   {

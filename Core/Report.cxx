@@ -20,9 +20,9 @@ namespace isopoint
 namespace
 {
 
-std::string describeArray(const Report& report)
+std::string describeArray(const SampleCounts& counts)
 {
-  return report.array.empty() ? "the array" : "\"" + report.array + "\"";
+  return counts.array.empty() ? "the array" : "\"" + counts.array + "\"";
 }
 
 std::string textOf(double number, int digits)
@@ -153,37 +153,6 @@ std::vector<Message> describeIsovalues(const Report& report, OptionNaming naming
     describeEmptyIsovalues(report, empty, naming) };
 }
 
-Message describeSkipped(const Report& report)
-{
-  if (report.notFinite + report.withoutArray == 0)
-  {
-    return {};
-  }
-  const std::vector<std::pair<std::uint64_t, std::string>> reasons{
-    { report.notFinite, "not finite" },
-    { report.withoutArray, "in blocks without " + describeArray(report) },
-    { report.excluded, report.excludedAs },
-  };
-  const std::uint64_t skipped = report.skippedCount();
-  std::vector<std::string> parts;
-  for (const auto& [count, reason] : reasons)
-  {
-    if (count > 0)
-    {
-      parts.push_back(count < skipped ? std::to_string(count) + " " + reason : reason);
-    }
-  }
-  const std::string cause =
-    "samples skipped of " + report.array + ": " + tenths(skipped, report.samples);
-  const std::string text = "Skipped " + std::to_string(skipped) + " of " +
-                           std::to_string(report.samples) + " samples: " + join(parts) + ".";
-  if (skipped == report.samples)
-  {
-    return { cause, text + " There is no isosurface. Choose another array." };
-  }
-  return { cause, text + " The surface there is that of the samples around.", Message::Note };
-}
-
 bool areMostUnprojected(const Report& report)
 {
   return report.areProjected && 2 * report.unprojectedPoints > report.pointCount();
@@ -250,18 +219,68 @@ std::vector<Message> describeReplacedArrays(const Report& report)
   return messages;
 }
 
-Message describePieces(const Report& report)
+} // namespace
+
+Message describePieces()
 {
-  if (!report.isPieceOfProcess)
-  {
-    return {};
-  }
   return { "pieces of processes",
     "Each process yields a piece of the surface of its own samples. If the processes have"
     " different samples, call SetController() with the global controller." };
 }
 
-} // namespace
+Message describeSkipped(
+  const SampleCounts& counts, const std::string& ofNone, const std::string& ofSome)
+{
+  if (counts.notFinite + counts.withoutArray == 0)
+  {
+    return {};
+  }
+  const std::vector<std::pair<std::uint64_t, std::string>> reasons{
+    { counts.notFinite, "not finite" },
+    { counts.withoutArray, "in blocks without " + describeArray(counts) },
+    { counts.excluded, counts.excludedAs },
+  };
+  const std::uint64_t skipped = counts.skippedCount();
+  std::vector<std::string> parts;
+  for (const auto& [count, reason] : reasons)
+  {
+    if (count > 0)
+    {
+      parts.push_back(count < skipped ? std::to_string(count) + " " + reason : reason);
+    }
+  }
+  const std::string cause =
+    "samples skipped of " + counts.array + ": " + tenths(skipped, counts.samples);
+  const std::string text = "Skipped " + std::to_string(skipped) + " of " +
+                           std::to_string(counts.samples) + " samples: " + join(parts) + ". ";
+  if (skipped == counts.samples)
+  {
+    return { cause, text + ofNone };
+  }
+  return { cause, text + ofSome, Message::Note };
+}
+
+void SampleCounts::count(const IsosurfaceExtractor& extractor, const CloudCounts& cloud)
+{
+  this->samples += cloud.items - cloud.unused;
+  this->excluded += cloud.excluded;
+  this->notFinite += extractor.skippedCount() - cloud.excluded - cloud.unused;
+}
+
+void SampleCounts::share(ProcessGroup& processes)
+{
+  for (std::uint64_t* const count :
+    { &this->samples, &this->notFinite, &this->excluded, &this->withoutArray })
+  {
+    *count = processes.sum(*count);
+  }
+  const std::vector<std::vector<char>> names =
+    processes.gather(std::vector<char>(this->array.begin(), this->array.end()));
+  for (auto name = names.begin(); name != names.end() && this->array.empty(); ++name)
+  {
+    this->array.assign(name->begin(), name->end()); // a rank without samples has none
+  }
+}
 
 Report::Report(const Options& options, const std::vector<double>& sortedIsovalues)
   : isovalues(sortedIsovalues)
@@ -279,9 +298,7 @@ std::uint64_t Report::pointCount() const
 
 void Report::countSamples(const IsosurfaceExtractor& extractor, const CloudCounts& cloud)
 {
-  this->samples += cloud.items - cloud.unused;
-  this->excluded += cloud.excluded;
-  this->notFinite += extractor.skippedCount() - cloud.excluded - cloud.unused;
+  this->count(extractor, cloud);
   const auto [lowest, highest] = extractor.valueRange();
   this->least = std::min(this->least, lowest);
   this->greatest = std::max(this->greatest, highest);
@@ -326,9 +343,10 @@ void Report::add(const Report& other)
 {
   std::transform(this->points.begin(), this->points.end(), other.points.begin(),
     this->points.begin(), std::plus<>());
-  for (std::uint64_t Report::*const count : { &Report::unprojectedPoints, &Report::innerCorners,
-         &Report::cornersApart, &Report::droppedInGaps, &Report::beyondFloat, &Report::samples,
-         &Report::notFinite, &Report::excluded, &Report::withoutArray })
+  for (const auto count :
+    std::initializer_list<std::uint64_t Report::*>{ &Report::unprojectedPoints,
+      &Report::innerCorners, &Report::cornersApart, &Report::droppedInGaps, &Report::beyondFloat,
+      &Report::samples, &Report::notFinite, &Report::excluded, &Report::withoutArray })
   {
     this->*count += other.*count;
   }
@@ -343,18 +361,12 @@ void Report::add(const Report& other)
 void Report::share(ProcessGroup& processes)
 {
   processes.sum(this->points); // the number of isovalues is the same on all ranks
-  for (std::uint64_t* const count :
-    { &this->unprojectedPoints, &this->innerCorners, &this->cornersApart, &this->droppedInGaps,
-      &this->beyondFloat, &this->samples, &this->notFinite, &this->excluded, &this->withoutArray })
+  for (std::uint64_t* const count : { &this->unprojectedPoints, &this->innerCorners,
+         &this->cornersApart, &this->droppedInGaps, &this->beyondFloat })
   {
     *count = processes.sum(*count);
   }
-  const std::vector<std::vector<char>> names =
-    processes.gather(std::vector<char>(this->array.begin(), this->array.end()));
-  for (auto name = names.begin(); name != names.end() && this->array.empty(); ++name)
-  {
-    this->array.assign(name->begin(), name->end()); // a rank without samples has none
-  }
+  this->SampleCounts::share(processes);
   this->least = fromOrderedKey(~processes.maximum(~orderedKey(this->least)));
   this->greatest = fromOrderedKey(processes.maximum(orderedKey(this->greatest)));
 }
@@ -362,11 +374,12 @@ void Report::share(ProcessGroup& processes)
 std::vector<Message> describeReport(const Report& report, OptionNaming naming)
 {
   std::vector<Message> messages = describeIsovalues(report, naming);
-  messages.push_back(describeSkipped(report));
+  messages.push_back(describeSkipped(report, "There is no isosurface. Choose another array.",
+    "The surface there is that of the samples around."));
   messages.push_back(describeUnprojected(report, naming));
   messages.push_back(describeCornersApart(report));
   messages.push_back(describeBeyondFloat(report));
-  messages.push_back(describePieces(report));
+  messages.push_back(report.isPieceOfProcess ? describePieces() : Message());
   const std::vector<Message> replaced = describeReplacedArrays(report);
   messages.insert(messages.end(), replaced.begin(), replaced.end());
   messages.erase(std::remove_if(messages.begin(), messages.end(),

@@ -38,28 +38,54 @@ struct CloudCounts
   std::uint64_t unused = 0;   // left out as well: ids without a sample
 };
 
-/// Counts of an extraction of isovalues from clouds, and properties needed to assess them.
-struct Report
+/// Counts of the samples of clouds.
+struct SampleCounts
 {
-  std::vector<double> isovalues;       // ascending
-  std::vector<std::uint64_t> points;   // by isovalue
-  bool areTriangles = false;           // whether points are connected
-  bool areProjected = false;           // whether fits were to move points
-  bool areSinglePoints = false;        // whether positions become float
-  bool contoursBlocks = false;         // whether each block is its own cloud
-  std::uint64_t unprojectedPoints = 0; // not moved by a fit
-  std::uint64_t innerCorners = 0;      // of splats, see SplatCornerCounts
-  std::uint64_t cornersApart = 0;      // corners that meet no others
-  std::uint64_t droppedInGaps = 0;     // dropped edges or tetrahedra
-  std::uint64_t beyondFloat = 0;       // points with a position or radius that float cannot hold
-  std::uint64_t samples = 0;           // all, including skipped ones
-  std::uint64_t notFinite = 0;         // samples with such a coordinate or value
-  std::uint64_t excluded = 0;          // samples left out by the caller, such as ghosts
-  std::uint64_t withoutArray = 0;      // samples of data sets without the contoured array
-  std::string array;                   // its name, may be empty
+  std::uint64_t samples = 0;                  // all, including skipped ones
+  std::uint64_t notFinite = 0;                // samples with such a coordinate or value
+  std::uint64_t excluded = 0;                 // samples left out by the caller, such as ghosts
+  std::uint64_t withoutArray = 0;             // samples of data sets without the chosen array
+  std::string array;                          // its name, may be empty
   std::string excludedAs = "ghost or hidden"; // the caller's word for excluded samples
-  std::set<std::string> replacedArrays;       // input arrays named like a computed one
-  bool isPieceOfProcess = false;              // one of several processes without a controller
+
+  /// Skipped for any reason.
+  std::uint64_t skippedCount() const
+  {
+    return this->notFinite + this->excluded + this->withoutArray;
+  }
+
+  /// Counts the samples of a loaded cloud.
+  void count(const IsosurfaceExtractor& extractor, const CloudCounts& cloud);
+
+  /// Adds the counts of other ranks. Collective.
+  /// @throws std::bad_alloc or FailedElsewhere
+  void share(ProcessGroup& processes);
+};
+
+/// The message about skipped samples; without a text if only the caller left out any.
+/// @param ofNone what follows if all are skipped, @param ofSome otherwise: sentences
+Message describeSkipped(
+  const SampleCounts& counts, const std::string& ofNone, const std::string& ofSome);
+
+/// The message that an output is a piece of one of several processes without a controller.
+Message describePieces();
+
+/// Counts of an extraction of isovalues from clouds, and properties needed to assess them.
+struct Report : SampleCounts
+{
+  std::vector<double> isovalues;        // ascending
+  std::vector<std::uint64_t> points;    // by isovalue
+  bool areTriangles = false;            // whether points are connected
+  bool areProjected = false;            // whether fits were to move points
+  bool areSinglePoints = false;         // whether positions become float
+  bool contoursBlocks = false;          // whether each block is its own cloud
+  std::uint64_t unprojectedPoints = 0;  // not moved by a fit
+  std::uint64_t innerCorners = 0;       // of splats, see SplatCornerCounts
+  std::uint64_t cornersApart = 0;       // corners that meet no others
+  std::uint64_t droppedInGaps = 0;      // dropped edges or tetrahedra
+  std::uint64_t beyondFloat = 0;        // points with a position or radius that float cannot hold
+  std::set<std::string> replacedArrays; // input arrays named like a computed one
+  bool isPieceOfProcess = false;        // one of several processes without a controller
   /// The range of the values in use; empty without any.
   double least = std::numeric_limits<double>::infinity();
   double greatest = -std::numeric_limits<double>::infinity();
@@ -71,13 +97,7 @@ struct Report
   /// Of all isovalues.
   std::uint64_t pointCount() const;
 
-  /// Skipped for any reason.
-  std::uint64_t skippedCount() const
-  {
-    return this->notFinite + this->excluded + this->withoutArray;
-  }
-
-  /// Counts the samples of a loaded cloud.
+  /// Counts the samples of a loaded cloud, and their values.
   void countSamples(const IsosurfaceExtractor& extractor, const CloudCounts& cloud);
 
   /// Counts the surface of an isovalue, by index, without points of other ranks.

@@ -5,13 +5,12 @@
  *
  * vtkScatteredIsopointFilter extracts points, vtkScatteredIsosurfaceFilter triangles. Their
  * documentation describes inputs, samples and guarantees; this class has the common properties.
- *
- * A failed update reports one error and leaves the output empty, but Update() returns 1.
- * GetErrorCode() returns the cause on all ranks: EINVAL for invalid input or options, ENOMEM for a
- * lack of memory, vtkErrorCode::UnknownError for a bug. It is 0 after a successful update, and
- * after an abort, which also leaves the output empty. It does not change if the filter does not
- * run, for example without an input. The pipeline considers the empty output up to date: call
- * Modified() to try again.
+ * If the filter has a controller (see SetController()), the outputs of all ranks together, as a set
+ * of points with all their arrays, equal the output of one process for the samples of all ranks,
+ * bit for bit, for any distribution of them. Each point is in the output of one rank. If ghost
+ * levels of the output are requested, regardless of how many, the points within 24 rings of
+ * neighbors around a rank's points (five without splats) follow these, with all their arrays,
+ * marked in "vtkGhostType" as DUPLICATEPOINT and their vertices as DUPLICATECELL.
  *
  * If a piece of the output is requested (UpdatePiece(), or a writer of pieces), the filter requests
  * its whole input and extracts the whole surface. The piece is a share of the points, or of the
@@ -30,20 +29,25 @@
 
 #include "vtkContourValues.h" // for inline methods
 #include "vtkNew.h"           // for the contour values
-#include "vtkPolyDataAlgorithm.h"
+#include "vtkScatteredAlgorithm.h"
 #include "vtkScatteredIsopointFiltersModule.h" // for the export macro
 
 #include <memory> // for std::unique_ptr
 
-class vtkIsopointUpdate;
-class vtkMultiProcessController;
+class vtkIsopointContouring;
+class vtkPolyData;
 struct vtkIsopointOptions;
 
-class VTKSCATTEREDISOPOINTFILTERS_EXPORT vtkScatteredContourFilter : public vtkPolyDataAlgorithm
+class VTKSCATTEREDISOPOINTFILTERS_EXPORT vtkScatteredContourFilter : public vtkScatteredAlgorithm
 {
 public:
-  vtkTypeMacro(vtkScatteredContourFilter, vtkPolyDataAlgorithm);
+  vtkTypeMacro(vtkScatteredContourFilter, vtkScatteredAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * The surface; null if the output is a composite (see SetContourBlocks()).
+   */
+  vtkPolyData* GetOutput();
 
   ///@{
   /**
@@ -205,16 +209,6 @@ public:
 
   ///@{
   /**
-   * Whether to keep the tree between updates, which makes further isovalues much faster, or to free
-   * it at the end of each update. The output is the same. Default: on.
-   */
-  virtual void SetKeepTree(vtkTypeBool keep);
-  virtual vtkTypeBool GetKeepTree();
-  vtkBooleanMacro(KeepTree, vtkTypeBool);
-  ///@}
-
-  ///@{
-  /**
    * Whether to contour each block of a composite input separately. If on, the output is a composite
    * of the same structure with a vtkPolyData for each block that has the contoured array (for an
    * AMR, a vtkMultiBlockDataSet of levels); use GetOutputDataObject(0). If off, all blocks form one
@@ -227,66 +221,10 @@ public:
   vtkBooleanMacro(ContourBlocks, vtkTypeBool);
   ///@}
 
-  ///@{
-  /**
-   * The process group (ranks) whose inputs form one cloud, in the order of the ranks. The outputs
-   * of all ranks together, as a set of points with all their arrays, equal the output of one
-   * process for that cloud, bit for bit, for any distribution of the cloud. Each point is in the
-   * output of one rank. All ranks must update the filter, with the same options. A rank may have no
-   * samples. If ghost levels of the output are requested, regardless of how many, the points within
-   * 24 rings of neighbors around a rank's points (five without splats) follow these, with all their
-   * arrays, marked in "vtkGhostType" as DUPLICATEPOINT and their vertices as DUPLICATECELL. With
-   * null, or a controller of one process, the filter runs on its own. Default: null; in ParaView
-   * the global controller.
-   */
-  virtual void SetController(vtkMultiProcessController* controller);
-  vtkMultiProcessController* GetController() const;
-  ///@}
-
-  /**
-   * SetController() with the global controller, or with null, for callers such as ParaView's
-   * proxies.
-   */
-  void SetUseGlobalController(bool use);
-
-  ///@{
-  /**
-   * Whether to use all cores if "Sequential" is merely the default backend of vtkSMPTools, as in
-   * Debian's ParaView. This is assumed if "Sequential" is active and the environment variable
-   * VTK_SMP_BACKEND_IN_USE is not set. The number of threads stays within VTK_SMP_MAX_THREADS and
-   * the argument of vtkSMPTools::Initialize(). If off, with any other backend, or if built without
-   * oneTBB, vtkSMPTools determines the threads. The output is the same. Default: on.
-   */
-  virtual void SetUseAllCores(vtkTypeBool use);
-  virtual vtkTypeBool GetUseAllCores();
-  vtkBooleanMacro(UseAllCores, vtkTypeBool);
-  ///@}
-
-  ///@{
-  /**
-   * Whether messages name properties as ParaView's panel does, "Drop Gaps", rather than as methods,
-   * "DropGaps". Default: off; in ParaView on.
-   */
-  virtual void SetUsePanelNames(vtkTypeBool use);
-  virtual vtkTypeBool GetUsePanelNames();
-  vtkBooleanMacro(UsePanelNames, vtkTypeBool);
-  ///@}
-
-  /**
-   * The number of input points (or cells, or leaves) of the last update, including skipped ones.
-   */
-  vtkIdType GetNumberOfSamples() const;
-
   /**
    * The number of points that the last update extracted on all ranks, without ghosts.
    */
   vtkIdType GetNumberOfExtractedPoints() const;
-
-  /**
-   * The number of input points (or cells, or leaves) that the last update skipped. See guarantee 3
-   * of vtkScatteredIsopointFilter.
-   */
-  vtkIdType GetNumberOfSkippedSamples() const;
 
   /**
    * The number of points in the last output that no fit moved: with NO_PROJECTION all, otherwise
@@ -309,23 +247,20 @@ protected:
   vtkScatteredContourFilter();
   ~vtkScatteredContourFilter() override;
 
-  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
+  vtkSmartPointer<vtkDataObject> NewOutput(vtkInformationVector** inputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
   vtkNew<vtkContourValues> ContourValues;
-  const std::unique_ptr<vtkIsopointOptions> Options; // the values of all properties
+  const std::unique_ptr<vtkIsopointOptions> Options; // the values of the properties here
 
 private:
   vtkScatteredContourFilter(const vtkScatteredContourFilter&) = delete;
   void operator=(const vtkScatteredContourFilter&) = delete;
 
-  std::unique_ptr<vtkIsopointUpdate> Updater;
+  const isopoint::SampleCounts& GetSampleCounts() const override;
+
+  std::unique_ptr<vtkIsopointContouring> Contouring;
 };
 
 #endif

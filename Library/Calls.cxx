@@ -148,6 +148,7 @@ void forEachMember(const Visitor& visit)
   visit(&C::minimum_spacing, &Core::minimumSpacing);
   visit(&C::keep_tetrahedra, &Core::keepTetrahedra);
   visit(&C::regularize, &Core::regularize);
+  visit(&C::keep_hull_slivers, &Core::keepHullSlivers);
 }
 
 /// @param given null for the defaults, or options of this version

@@ -151,6 +151,10 @@ typedef struct isopoint_options
   /* Triangles only: whether to merge vertices and flip edges, which gives fewer and well-shaped
    * triangles. 0: the exact isosurface of the Delaunay tetrahedralization. */
   int32_t regularize; /* Default: 1 */
+  /* Triangles only, with drop_gaps: whether gaps begin only where edges span a void, and not at flat
+   * tetrahedra on the convex hull, so that a surface through a full body has a clean rim: for
+   * slices. */
+  int32_t keep_hull_slivers; /* Default: 0 */
 } isopoint_options;
 
 /* Sets all options to their defaults. @param size sizeof(isopoint_options) */
@@ -335,7 +339,14 @@ ISOPOINT_API void isopoint_destroy_neighborhoods(isopoint_neighborhoods* neighbo
  * @param options null for the defaults
  * @param surface receives a surface, to be freed by isopoint_destroy_surface(). If it has no points
  * although there are isovalues, isopoint_get_message() says why. After ISOPOINT_INTERNAL_ERROR the
- * extractor has no samples */
+ * extractor has no samples
+ *
+ * To slice samples along a plane or another implicit function, pass the function's values at the
+ * samples, as double, to isopoint_set_samples(), and extract triangles without projection and
+ * normals, but with keep_hull_slivers. Planes have the function dot(position, normal): a plane that
+ * moves along its normal is another isovalue. Then isopoint_probe() with EXTRAPOLATE gives all
+ * arrays at the points by fits, also at rims, where slivers on the convex hull have edges that are
+ * far too long for isopoint_interpolate(). */
 ISOPOINT_API isopoint_status isopoint_extract(isopoint_extractor* extractor,
   const double* isovalues, int64_t count, const isopoint_options* options,
   isopoint_surface** surface);

@@ -74,6 +74,9 @@ struct IsosurfaceRequest
   bool duplicatesCreaseVertices = false;
   /// Triangles only: whether to merge vertices and flip edges for good shapes (docs/triangles.md).
   bool regularizes = false;
+  /// Triangles only: whether gaps begin only where edges span a void, and not at slivers on the
+  /// convex hull, so that a full body has a clean rim (docs/triangles.md).
+  bool keepsHullSlivers = false;
 };
 
 /// The edge of an isopoint, between samples on opposite sides of the isovalue.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Core/Neighbors/AngleCriterion.h"
+#include "Core/Neighbors/NearestSample.h"
 #include "Core/Neighbors/NeighborSearch.h"
 #include "Core/Tree/SampleBounds.h"
 
@@ -30,8 +31,9 @@ public:
   static constexpr double coneCosine = 1.0 / 1.7320508075688772;
 
   /// @param factor positive
-  /// @param count rank of the sample behind an end that defines the spacing: 1 to 3
-  /// @param cosine of the cone's half angle; 0 for the half-space behind an end
+  /// @param count rank of the sample behind an end that defines the spacing: 1 to 6
+  /// @param cosine of the cone's half angle; 0 for the half-space behind an end, and less than -1
+  /// for all around
   GapCriterion(double factor, std::size_t count, double cosine = coneCosine)
     : Factor(factor)
     , WantedCount(count)
@@ -86,7 +88,7 @@ public:
   }
 
 private:
-  static constexpr std::size_t maxWanted = 3;
+  static constexpr std::size_t maxWanted = 6;
 
   /// Positions found behind an end, each once.
   template <class TSample>
@@ -141,7 +143,7 @@ private:
     {
       const double least = std::sqrt(offsets.minSquaredLength);
       return this->criterion.Factor * least < this->edge.length &&
-             -minProduct(this->edge, offsets) >
+             -minProduct(this->edge, offsets) >=
                this->criterion.Cosine * (least * this->edge.length);
     }
 
@@ -237,6 +239,49 @@ private:
   GapCriterion Weak = GapCriterion::weak();
   GapCriterion Around{ 4.0, 3, 0.0 };
   GapCriterion Beyond{ 0.5, 2 };
+};
+
+/// Rejects edges that span a void: those that another criterion rejects, and whose middle is
+/// farther from all samples than a factor times the spacing at one of their ends, the distance to
+/// the sixth nearest position. It spares long edges of slivers on the convex hull, which samples
+/// inside are close to.
+template <class TCriterion>
+class VoidCriterion
+{
+public:
+  VoidCriterion(const TCriterion& criterion, double factor)
+    : Criterion(criterion)
+    , Factor(factor)
+  {
+  }
+
+  /// As GapCriterion::drops().
+  template <class TSample>
+  bool drops(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& own,
+    const TSample& other) const
+  {
+    return this->Criterion.drops(tree, bounds, own, other) &&
+           this->isBare(tree, bounds, own, other);
+  }
+
+private:
+  /// Whether no sample is near the middle.
+  template <class TSample>
+  bool isBare(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& own,
+    const TSample& other) const
+  {
+    constexpr std::size_t spacingCount = 6;
+    constexpr double allAround = -2.0;
+    const Vector middle = 0.5 * (positionOf(own) + positionOf(other));
+    const double length = offsetBetween(positionOf(own), positionOf(other)).length;
+    const TSample* const nearest = NearestSampleSearch<TSample>(tree, middle, length).search();
+    const double distance = lengthOf(positionOf(*nearest) - middle);
+    const GapCriterion around{ this->Factor * (length / distance), spacingCount, allAround };
+    return around.isDense(tree, bounds, own, other) || around.isDense(tree, bounds, other, own);
+  }
+
+  TCriterion Criterion;
+  double Factor;
 };
 
 } // namespace isopoint

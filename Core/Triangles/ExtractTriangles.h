@@ -188,7 +188,9 @@ private:
     this->Ranks.order(found);
     const std::size_t count = found.size();
     dropMarked(execution,
-      GapTetrahedraFinder<TSample, TRanks>(execution, this->Tree, this->Ranks, found).find(),
+      GapTetrahedraFinder<TSample, TRanks>(
+        execution, this->Tree, this->Ranks, found, this->Request.keepsHullSlivers)
+        .find(),
       found);
     this->Dropped = count - found.size();
   }

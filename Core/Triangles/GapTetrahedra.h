@@ -133,12 +133,14 @@ public:
   using Tetrahedron = CrossingTetrahedron<Id>;
 
   /// @param tetrahedra all crossing tetrahedra, in the same order on all ranks
+  /// @param keepsHullSlivers see IsosurfaceRequest
   GapTetrahedraFinder(const Execution& execution, const SampleTree<TSample>& tree, TRanks& ranks,
-    const std::vector<Tetrahedron>& tetrahedra)
+    const std::vector<Tetrahedron>& tetrahedra, bool keepsHullSlivers)
     : Exec(execution)
     , Tree(tree)
     , Ranks(ranks)
     , Tetrahedra(tetrahedra)
+    , KeepsHullSlivers(keepsHullSlivers)
     , Parts(tree, tetrahedra)
     , Spread(execution, tree, ranks, this->Parts)
   {
@@ -148,14 +150,25 @@ public:
   /// @throws std::bad_alloc, Aborted, FailedElsewhere
   std::vector<char> find()
   {
-    this->Spread.spread(RimCriterion(), this->seeds());
+    if (this->KeepsHullSlivers)
+    {
+      this->Spread.spread(VoidCriterion(RimCriterion(), weakVoidFactor), this->seeds());
+    }
+    else
+    {
+      this->Spread.spread(RimCriterion(), this->seeds());
+    }
     return this->withFragments(this->Spread.isInGap());
   }
 
 private:
   static constexpr std::size_t smallestPiece = 8; // of tetrahedra next to a gap
+  // See VoidCriterion.
+  static constexpr double strongVoidFactor = 1.5;
+  static constexpr double weakVoidFactor = 1.0;
 
-  /// The tetrahedra from which gaps spread: those rejected by the strong criterion or at the hull.
+  /// The tetrahedra from which gaps spread: those rejected by the strong criterion or at the hull;
+  /// if slivers are kept, those that span a void.
   std::vector<std::size_t> seeds()
   {
     const std::vector<char> isDense = this->denseLeaves();
@@ -166,6 +179,11 @@ private:
         return std::count_if(corners.begin(), corners.end(),
                  [&](Id leaf) { return isDense[static_cast<std::size_t>(leaf)] != 0; }) >= 2;
       });
+    if (this->KeepsHullSlivers)
+    {
+      return this->Spread.rejectedAmong(
+        VoidCriterion(GapCriterion::strong(), strongVoidFactor), candidates);
+    }
     std::vector<std::size_t> seeds = this->Spread.rejectedAmong(GapCriterion::strong(), candidates);
     const std::vector<std::size_t> atHull = itemsThat(this->Exec, this->Tetrahedra.size(),
       [&](std::size_t i) { return this->Tetrahedra[i].isAtHull; });
@@ -291,6 +309,7 @@ private:
   const SampleTree<TSample>& Tree;
   TRanks& Ranks;
   const std::vector<Tetrahedron>& Tetrahedra;
+  const bool KeepsHullSlivers;
   TetrahedronParts<TSample> Parts;
   GapSpread<TSample, TRanks, TetrahedronParts<TSample>> Spread;
 };

@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstring>
 #include <utility>
 
 namespace
@@ -43,7 +44,7 @@ std::string arrayNames(vtkDataSetAttributes* attributes)
 }
 
 /// The remedy for a wrong array to process: lists the arrays of a leaf.
-std::string remedyFor(vtkDataObject* leaf)
+std::string remedyFor(vtkDataObject* leaf, const vtkIsopointArrayChoice& choice)
 {
   const std::string ofPoints = arrayNames(leaf->GetAttributes(vtkDataObject::POINT));
   const std::string ofCells = arrayNames(leaf->GetAttributes(vtkDataObject::CELL));
@@ -51,9 +52,12 @@ std::string remedyFor(vtkDataObject* leaf)
   {
     return " There are no arrays: load point or cell arrays in the reader.";
   }
-  return " Choose a scalar array (Contour By in ParaView, SetInputArrayToProcess() in VTK); the point"
-         " arrays are: " +
-         ofPoints + "; the cell arrays are: " + ofCells + ".";
+  const std::string chosen = choice.GetRole() == vtkIsopointArrayChoice::Tuples
+                               ? "n array (Scalar Array in ParaView, "
+                               : " scalar array (Contour By in ParaView, ";
+  return " Choose a" + chosen +
+         "SetInputArrayToProcess() in VTK); the point arrays are: " + ofPoints +
+         "; the cell arrays are: " + ofCells + ".";
 }
 
 vtkIdType elementCount(vtkDataObject* leaf)
@@ -72,15 +76,16 @@ std::string describe(vtkAbstractArray* array)
   return std::string("The array \"") + (array->GetName() ? array->GetName() : "") + "\" ";
 }
 
-/// @throws isopoint::UsageError unless the array is numeric with one component
-vtkDataArray* asScalars(vtkAbstractArray* array, vtkDataObject* leaf)
+/// @throws isopoint::UsageError unless the array is numeric and, for values, has one component
+vtkDataArray* asNumbers(
+  vtkAbstractArray* array, vtkDataObject* leaf, const vtkIsopointArrayChoice& choice)
 {
   auto* const scalars = vtkDataArray::SafeDownCast(array);
   if (!scalars)
   {
-    throw isopoint::UsageError(describe(array) + "holds no numbers." + remedyFor(leaf));
+    throw isopoint::UsageError(describe(array) + "holds no numbers." + remedyFor(leaf, choice));
   }
-  if (scalars->GetNumberOfComponents() != 1)
+  if (choice.GetRole() == vtkIsopointArrayChoice::Values && scalars->GetNumberOfComponents() != 1)
   {
     throw isopoint::UsageError(describe(array) + "has " +
                                std::to_string(scalars->GetNumberOfComponents()) +
@@ -122,6 +127,28 @@ vtkIdType countExcluded(
   return excluded;
 }
 
+/// Whether attributes have an array of numbers besides ghost marks and ids.
+bool hasNumbers(vtkDataSetAttributes* attributes)
+{
+  for (int i = 0; attributes && i < attributes->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* const array = attributes->GetArray(i);
+    const char* const name = array ? array->GetName() : nullptr;
+    if (name && std::strcmp(name, vtkDataSetAttributes::GhostArrayName()) != 0 &&
+        attributes->IsArrayAnAttribute(i) != vtkDataSetAttributes::GLOBALIDS)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// The number of values of an array or else of the first of the attributes.
+vtkIdType countValues(vtkDataArray* array, vtkDataSetAttributes* attributes)
+{
+  return array ? array->GetNumberOfTuples() : attributes->GetNumberOfTuples();
+}
+
 } // namespace
 
 vtkIdType vtkIsopointBlock::GetNumberOfSamples() const
@@ -129,8 +156,9 @@ vtkIdType vtkIsopointBlock::GetNumberOfSamples() const
   return this->Positions->GetNumberOfPoints();
 }
 
-vtkIsopointArrayChoice::vtkIsopointArrayChoice(vtkInformation* inputArray)
-  : Association(inputArray->Get(vtkDataObject::FIELD_ASSOCIATION()))
+vtkIsopointArrayChoice::vtkIsopointArrayChoice(vtkInformation* inputArray, Roles role)
+  : Role(role)
+  , Association(inputArray->Get(vtkDataObject::FIELD_ASSOCIATION()))
   // ParaView passes an empty name if no array was chosen.
   , Name(inputArray->Has(vtkDataObject::FIELD_NAME()) ? inputArray->Get(vtkDataObject::FIELD_NAME())
                                                       : "")
@@ -157,6 +185,29 @@ vtkAbstractArray* vtkIsopointArrayChoice::Find(vtkDataSetAttributes* attributes)
                             : attributes->GetAbstractArray(this->Name.c_str());
 }
 
+std::pair<vtkDataSetAttributes*, vtkAbstractArray*> vtkIsopointArrayChoice::FindIn(
+  vtkDataObject* leaf) const
+{
+  // A hyper tree grid has cell data only.
+  const bool hasPoints = vtkDataSet::SafeDownCast(leaf) != nullptr;
+  vtkDataSetAttributes* const points =
+    hasPoints ? leaf->GetAttributes(vtkDataObject::POINT) : nullptr;
+  vtkDataSetAttributes* const cells = leaf->GetAttributes(vtkDataObject::CELL);
+  if (this->Role == NoArray)
+  {
+    const bool areCells = !points || (!hasNumbers(points) && hasNumbers(cells));
+    return { areCells ? cells : points, nullptr };
+  }
+  vtkAbstractArray* const ofPoints = points && this->MayBeOfPoints() ? this->Find(points) : nullptr;
+  if (ofPoints)
+  {
+    return { points, ofPoints };
+  }
+  vtkAbstractArray* const ofCells =
+    cells && (this->MayBeOfCells() || !hasPoints) ? this->Find(cells) : nullptr;
+  return { ofCells ? cells : nullptr, ofCells };
+}
+
 std::string vtkIsopointArrayChoice::Describe() const
 {
   const std::string element = !this->MayBeOfPoints() ? "cell"
@@ -180,74 +231,72 @@ void vtkIsopointBlocks::Collect(const isopoint::Execution& execution, vtkDataObj
       this->Kept.erase(number);
       continue;
     }
-    remedy = remedy.empty() ? remedyFor(leaf) : remedy;
+    remedy = remedy.empty() ? remedyFor(leaf, choice) : remedy;
     this->AddLeaf(execution, leaf, number, choice, leaf == input ? wholeExtent : nullptr);
   }
   this->Kept.erase(this->Kept.lower_bound(leaves.size()), this->Kept.end());
   if (remedy.empty())
   {
     throw vtkIsopointNoSamplesError(
-      "The input has no points or cells. Connect a data set with a scalar array.");
+      std::string("The input has no points or cells. Connect a data set with ") +
+      (choice.GetRole() == vtkIsopointArrayChoice::Values ? "a scalar array." : "points."));
   }
   if (this->Blocks.empty())
   {
-    throw vtkIsopointNoSamplesError("The input has no " + choice.Describe() + "." + remedy);
+    throw vtkIsopointNoSamplesError(choice.GetRole() == vtkIsopointArrayChoice::NoArray
+                                      ? "The input has no samples. Connect a data set with points."
+                                      : "The input has no " + choice.Describe() + "." + remedy);
   }
 }
 
 void vtkIsopointBlocks::AddLeaf(const isopoint::Execution& execution, vtkDataObject* leaf,
   std::size_t number, const vtkIsopointArrayChoice& choice, const int* wholeExtent)
 {
-  // A hyper tree grid has cell data only.
-  const bool hasPoints = vtkDataSet::SafeDownCast(leaf) != nullptr;
-  vtkDataSetAttributes* const points =
-    hasPoints ? leaf->GetAttributes(vtkDataObject::POINT) : nullptr;
-  vtkDataSetAttributes* const cells = leaf->GetAttributes(vtkDataObject::CELL);
-  vtkAbstractArray* const ofPoints =
-    points && choice.MayBeOfPoints() ? choice.Find(points) : nullptr;
-  vtkAbstractArray* const ofCells =
-    !ofPoints && cells && (choice.MayBeOfCells() || !hasPoints) ? choice.Find(cells) : nullptr;
-  if (!ofPoints && !ofCells)
+  const auto [attributes, chosen] = choice.FindIn(leaf);
+  if (!attributes)
   {
     this->PointsWithoutArray += elementCount(leaf);
     this->Kept.erase(number);
     return;
   }
+  vtkDataArray* const array = chosen ? asNumbers(chosen, leaf, choice) : nullptr;
+  const bool areValues = choice.GetRole() == vtkIsopointArrayChoice::Values;
+  const bool areOfPoints = attributes != leaf->GetAttributes(vtkDataObject::CELL);
   vtkIsopointBlock block;
   block.Leaf = number;
-  block.Attributes = ofPoints ? points : cells;
-  block.Scalars = asScalars(ofPoints ? ofPoints : ofCells, leaf);
+  block.Attributes = attributes;
+  block.Scalars = areValues ? array : nullptr;
 
   vtkIsopointInputState state = vtkGetIsopointGeometryState(execution, leaf);
-  state.push_back(ofPoints ? 0 : 1);
-  for (int i = 0; ofPoints && wholeExtent && i < 6; ++i)
+  state.push_back(areOfPoints ? 0 : 1);
+  for (int i = 0; areOfPoints && wholeExtent && i < 6; ++i)
   {
     state.push_back(static_cast<vtkMTimeType>(wholeExtent[i]));
   }
-  if (!hasPoints) // hyper tree grids: the ids are those of the values
+  if (vtkHyperTreeGrid::SafeDownCast(leaf)) // the ids are those of the values
   {
-    state.push_back(static_cast<vtkMTimeType>(block.Scalars->GetNumberOfTuples()));
+    state.push_back(static_cast<vtkMTimeType>(countValues(array, attributes)));
   }
   Computed& computed = this->Kept[number];
   if (computed.Of != state)
   {
     computed = Computed();
-    Compute(execution, leaf, block, wholeExtent, computed);
+    Compute(execution, leaf, block, countValues(array, attributes), wholeExtent, computed);
     computed.Of = state;
   }
-  block.Positions = ofPoints ? vtkDataSet::SafeDownCast(leaf) : computed.Centers.Get();
+  block.Positions = areOfPoints ? vtkDataSet::SafeDownCast(leaf) : computed.Centers.Get();
   block.Ghosts = computed.HasOwnGhosts ? ownGhosts(leaf) : computed.Ghosts.Get();
   block.NumberOfExcluded = computed.NumberOfExcluded;
   block.NumberOfUnusedIds = computed.NumberOfUnusedIds;
 
-  if (block.Scalars->GetNumberOfTuples() != block.GetNumberOfSamples())
+  if (array && array->GetNumberOfTuples() != block.GetNumberOfSamples())
   {
-    throw isopoint::UsageError(describe(block.Scalars) + "has " +
-                               std::to_string(block.Scalars->GetNumberOfTuples()) + " values for " +
+    throw isopoint::UsageError(describe(array) + "has " +
+                               std::to_string(array->GetNumberOfTuples()) + " values for " +
                                std::to_string(block.GetNumberOfSamples()) +
-                               (ofPoints ? " points." : " cells.") + remedyFor(leaf));
+                               (areOfPoints ? " points." : " cells.") + remedyFor(leaf, choice));
   }
-  state.push_back(block.Scalars->GetMTime());
+  state.push_back(areValues ? array->GetMTime() : 0);
   if (block.GetNumberOfSamples() > 0)
   {
     this->Blocks.push_back(block);
@@ -256,9 +305,8 @@ void vtkIsopointBlocks::AddLeaf(const isopoint::Execution& execution, vtkDataObj
 }
 
 void vtkIsopointBlocks::Compute(const isopoint::Execution& execution, vtkDataObject* leaf,
-  const vtkIsopointBlock& block, const int* wholeExtent, Computed& computed)
+  const vtkIsopointBlock& block, vtkIdType samples, const int* wholeExtent, Computed& computed)
 {
-  vtkIdType samples = block.Scalars->GetNumberOfTuples();
   auto* const dataSet = vtkDataSet::SafeDownCast(leaf);
   if (auto* const trees = vtkHyperTreeGrid::SafeDownCast(leaf))
   {

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace isopoint
@@ -32,7 +33,7 @@ struct vtkIsopointBlock
 {
   vtkSmartPointer<vtkDataSet> Positions; // one point per sample; its attributes are ignored
   vtkDataSetAttributes* Attributes = nullptr;
-  vtkDataArray* Scalars = nullptr;
+  vtkDataArray* Scalars = nullptr; // the samples' values; null if they have none
 
   /// Null, or one value per sample; samples with any of the bits in `Excluding` are skipped.
   vtkSmartPointer<vtkUnsignedCharArray> Ghosts;
@@ -51,12 +52,24 @@ struct vtkIsopointBlock
   vtkIdType GetNumberOfSamples() const;
 };
 
-/// The array to contour, as chosen by vtkAlgorithm::SetInputArrayToProcess().
+/// The array that determines which points or cells are samples.
 class vtkIsopointArrayChoice
 {
 public:
+  enum Roles
+  {
+    NoArray, // samples are the points or, of a data set with cell arrays alone, the cells
+    Values,  // a scalar array, the values of the samples
+    Tuples   // an array with any components; the samples have no values
+  };
+
+  /// No array.
   vtkIsopointArrayChoice() = default;
-  explicit vtkIsopointArrayChoice(vtkInformation* inputArray);
+
+  /// @param inputArray as chosen by vtkAlgorithm::SetInputArrayToProcess()
+  explicit vtkIsopointArrayChoice(vtkInformation* inputArray, Roles role = Values);
+
+  Roles GetRole() const { return this->Role; }
 
   /// Whether the array may be a point array, and a cell array. Point arrays have precedence.
   bool MayBeOfPoints() const;
@@ -66,16 +79,21 @@ public:
   /// null.
   vtkAbstractArray* Find(vtkDataSetAttributes* attributes) const;
 
+  /// The attributes of a leaf's samples and the chosen array, which is null if none is. Both are
+  /// null if the leaf does not have it.
+  std::pair<vtkDataSetAttributes*, vtkAbstractArray*> FindIn(vtkDataObject* leaf) const;
+
   /// Describes the array for messages and comparisons, as in "point array named ...".
   std::string Describe() const;
 
 private:
+  Roles Role = NoArray;
   int Association = 0;
   std::string Name; // empty: the active attribute
   int Attribute = 0;
 };
 
-/// There is nothing to contour. In a process group this is an error only if it holds for all ranks.
+/// There are no samples. In a process group this is an error only if it holds for all ranks.
 struct vtkIsopointNoSamplesError : isopoint::UsageError
 {
   using isopoint::UsageError::UsageError;
@@ -88,10 +106,11 @@ struct vtkIsopointNoSamplesError : isopoint::UsageError
 class vtkIsopointBlocks
 {
 public:
-  /// Collects the blocks of an input that have the array and any points or cells.
+  /// Collects the blocks of an input that have the array, if one is chosen, and any points or
+  /// cells.
   /// @param wholeExtent of the structured grid whose pieces are distributed over ranks, or null
-  /// @throws isopoint::UsageError if no block remains, or if the array of a block does not have one
-  /// component with a value per point or cell; std::bad_alloc; isopoint::Aborted
+  /// @throws isopoint::UsageError if no block remains, or if the array of a block does not have a
+  /// number, or for an attribute a tuple, per point or cell; std::bad_alloc; isopoint::Aborted
   void Collect(const isopoint::Execution& execution, vtkDataObject* input,
     const vtkIsopointArrayChoice& choice, const int* wholeExtent);
 
@@ -120,7 +139,7 @@ private:
     vtkIdType NumberOfUnusedIds = 0;
   };
   static void Compute(const isopoint::Execution& execution, vtkDataObject* leaf,
-    const vtkIsopointBlock& block, const int* wholeExtent, Computed& computed);
+    const vtkIsopointBlock& block, vtkIdType samples, const int* wholeExtent, Computed& computed);
 
   std::vector<vtkIsopointBlock> Blocks;
   std::vector<vtkIsopointInputState> States; // one for each block

@@ -224,6 +224,8 @@ vtkIsopointLeafCenters vtkFindLeafCenters(
   centers.Points->SetDataTypeToDouble();
   vtkAllocateTuples(centers.Points->GetData(), count);
   vtkAllocateTuples(centers.Ghosts, count);
+  std::fill_n(static_cast<double*>(centers.Points->GetVoidPointer(0)), 3 * count,
+    std::numeric_limits<double>::quiet_NaN());
   std::fill_n(centers.Ghosts->GetPointer(0), count,
     static_cast<unsigned char>(vtkDataSetAttributes::HIDDENPOINT));
 

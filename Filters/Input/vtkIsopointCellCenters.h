@@ -34,7 +34,7 @@ struct vtkIsopointLeafCenters
 };
 
 /// Sample ids are those of the `count` values of the grid's cell data. Masked leaves, ghosts and
-/// ids without a leaf are marked in `Ghosts`.
+/// ids without a leaf are marked in `Ghosts`, and their points are NaN.
 /// @throws std::bad_alloc, isopoint::Aborted
 vtkIsopointLeafCenters vtkFindLeafCenters(
   const isopoint::Execution& execution, vtkHyperTreeGrid* input, vtkIdType count);

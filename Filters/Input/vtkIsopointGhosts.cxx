@@ -194,3 +194,44 @@ vtkSmartPointer<vtkUnsignedCharArray> vtkFindGhostCells(
   }
   return ghosts;
 }
+
+namespace
+{
+
+/// A ghost array of its own for attributes, with the marks that they have.
+vtkSmartPointer<vtkUnsignedCharArray> addGhosts(vtkDataSetAttributes* attributes, vtkIdType count)
+{
+  const vtkSmartPointer<vtkUnsignedCharArray> ghosts = newGhosts(count);
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  if (vtkUnsignedCharArray* const before = vtkGetIsopointGhosts(attributes, count))
+  {
+    std::copy_n(before->GetPointer(0), count, ghosts->GetPointer(0));
+  }
+  attributes->AddArray(ghosts);
+  return ghosts;
+}
+
+} // namespace
+
+void vtkHideIsopointPoints(
+  const isopoint::Execution& execution, const unsigned char* hidden, vtkDataSet* data)
+{
+  const vtkIdType count = data->GetNumberOfPoints();
+  if (std::all_of(hidden, hidden + count, [](unsigned char isHidden) { return isHidden == 0; }))
+  {
+    return;
+  }
+  const auto points = addGhosts(data->GetPointData(), count);
+  const auto cells = addGhosts(data->GetCellData(), data->GetNumberOfCells());
+  for (vtkIdType point = 0; point < count; ++point)
+  {
+    unsigned char& marks = *points->GetPointer(point);
+    marks |= hidden[point] != 0 ? vtkDataSetAttributes::HIDDENPOINT : 0;
+  }
+  forEachCellPoint(execution, data,
+    [&](vtkIdType cell, vtkIdType point)
+    {
+      unsigned char& marks = *cells->GetPointer(cell);
+      marks |= hidden[point] != 0 ? vtkDataSetAttributes::HIDDENCELL : 0;
+    });
+}

@@ -32,4 +32,10 @@ vtkSmartPointer<vtkUnsignedCharArray> vtkFindGhostPoints(
 vtkSmartPointer<vtkUnsignedCharArray> vtkFindGhostCells(
   const isopoint::Execution& execution, vtkDataSet* input);
 
+/// Hides points of a data set, and cells with any of them, in its ghost arrays.
+/// @param hidden by point; not 0: to hide
+/// @throws std::bad_alloc, isopoint::Aborted
+void vtkHideIsopointPoints(
+  const isopoint::Execution& execution, const unsigned char* hidden, vtkDataSet* data);
+
 #endif

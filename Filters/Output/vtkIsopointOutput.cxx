@@ -67,14 +67,25 @@ vtkSmartPointer<vtkCellArray> newCells(vtkIdType size, vtkIdTypeArray* connectiv
   return cells;
 }
 
+/// 0 .. count - 1
+vtkSmartPointer<vtkIdTypeArray> numbersBelow(vtkIdType count)
+{
+  auto numbers = vtkSmartPointer<vtkIdTypeArray>::New();
+  vtkAllocateTuples(numbers, count);
+  std::iota(numbers->GetPointer(0), numbers->GetPointer(0) + count, vtkIdType{ 0 });
+  return numbers;
+}
+
 } // namespace
 
 vtkSmartPointer<vtkCellArray> vtkNewIsopointVertices(vtkIdType count)
 {
-  vtkNew<vtkIdTypeArray> connectivity;
-  vtkAllocateTuples(connectivity, count);
-  std::iota(connectivity->GetPointer(0), connectivity->GetPointer(0) + count, vtkIdType{ 0 });
-  return newCells(1, connectivity);
+  return newCells(1, numbersBelow(count));
+}
+
+vtkSmartPointer<vtkCellArray> vtkNewIsopointPolyline(vtkIdType count)
+{
+  return newCells(count, numbersBelow(count));
 }
 
 vtkSmartPointer<vtkCellArray> vtkNewIsopointTriangles(

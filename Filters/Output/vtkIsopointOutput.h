@@ -28,6 +28,10 @@ vtkSmartPointer<vtkPoints> vtkNewIsopointPositions(const isopoint::Execution& ex
 /// @throws std::bad_alloc
 vtkSmartPointer<vtkCellArray> vtkNewIsopointVertices(vtkIdType count);
 
+/// One polyline through at least one point, in their order.
+/// @throws std::bad_alloc
+vtkSmartPointer<vtkCellArray> vtkNewIsopointPolyline(vtkIdType count);
+
 /// The triangles of all surfaces, on the points of vtkNewIsopointPositions().
 /// @throws std::bad_alloc
 vtkSmartPointer<vtkCellArray> vtkNewIsopointTriangles(

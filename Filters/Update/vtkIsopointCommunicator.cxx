@@ -2,9 +2,6 @@
 #include "Update/vtkIsopointCommunicator.h"
 
 #include "Core/Base/Threads.h"
-#include "Core/Failure.h"
-#include "Input/vtkIsopointBlocks.h"
-#include "Update/vtkIsopointOptions.h"
 
 #include "vtkCommunicator.h"
 #include "vtkMultiProcessController.h"
@@ -15,8 +12,6 @@
 #include <algorithm>
 #include <cstring>
 #include <functional>
-#include <ios>
-#include <sstream>
 #include <string>
 
 namespace
@@ -147,27 +142,4 @@ std::size_t vtkCountIsopointRanksOnCores(isopoint::ProcessGroup& processes)
   const std::uint64_t own = std::hash<std::string>()((name ? name : "") + isopoint::boundCores());
   const std::vector<std::uint64_t> all = processes.gather(own);
   return static_cast<std::size_t>(std::count(all.begin(), all.end(), own));
-}
-
-void vtkCheckIsopointOptionsOnRanks(isopoint::ProcessGroup& processes,
-  const vtkIsopointOptions& options, const std::vector<double>& sortedIsovalues,
-  const vtkIsopointArrayChoice& array)
-{
-  std::ostringstream text;
-  text << std::hexfloat << options.Core.triangles << " " << array.Describe() << " "
-       << options.ComputeScalars << " " << options.ContourBlocks;
-  for (const double isovalue : sortedIsovalues)
-  {
-    text << " " << isovalue + 0.0; // 0 and -0 are the same
-  }
-  isopoint::forEachOption(
-    options.Core, [&](const auto& option) { text << " " << options.Core.*option.value + 0.0; });
-  const std::uint64_t hash = std::hash<std::string>()(text.str());
-  const bool differ = processes.maximum(hash) != ~processes.maximum(~hash);
-  if (differ && processes.rank() == 0)
-  {
-    throw isopoint::UsageError(
-      "The filters of the ranks have different options. Set the same on all of them, or contour"
-      " each rank's samples separately by setting Controller to null.");
-  }
 }

@@ -10,9 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-class vtkIsopointArrayChoice;
 class vtkMultiProcessController;
-struct vtkIsopointOptions;
 
 /// Connects the core to a VTK controller, or to this rank alone. Splits large messages into parts.
 class vtkIsopointCommunicator : public isopoint::Communicator
@@ -42,11 +40,5 @@ private:
 
 /// The number of ranks that share cores with this rank, including itself. Collective.
 std::size_t vtkCountIsopointRanksOnCores(isopoint::ProcessGroup& processes);
-
-/// Checks that all ranks have the same options. Collective.
-/// @throws isopoint::UsageError on one rank and isopoint::FailedElsewhere on the others
-void vtkCheckIsopointOptionsOnRanks(isopoint::ProcessGroup& processes,
-  const vtkIsopointOptions& options, const std::vector<double>& sortedIsovalues,
-  const vtkIsopointArrayChoice& array);
 
 #endif

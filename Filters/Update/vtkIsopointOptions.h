@@ -9,16 +9,13 @@
 
 class vtkContourValues;
 
-/// The properties of a filter: the core's options, and those of data objects and updates.
+/// The properties of a contour filter besides vtkIsopointSettings.
 struct vtkIsopointOptions
 {
   isopoint::Options Core;
   vtkContourValues* ContourValues = nullptr; // of the filter
   bool ComputeScalars = true;
   bool ContourBlocks = false;
-  bool KeepTree = true;
-  bool UseAllCores = true;
-  bool UsePanelNames = false;
 };
 
 /// Sets an option to a value, clamped to its range.
@@ -54,19 +51,20 @@ bool vtkSetIsopointOption(
     return this->Options->Core.*option.value;                                                      \
   }
 
-/// The same for an option of the filter that is on or off.
-#define vtkIsopointSwitchMacro(filter, name)                                                       \
+/// The same for a property that is on or off.
+/// @param held where it is, a bool
+#define vtkIsopointSwitchMacro(filter, name, held)                                                 \
   void filter::Set##name(vtkTypeBool isOn)                                                         \
   {                                                                                                \
-    if (this->Options->name != (isOn != 0))                                                        \
+    if ((held) != (isOn != 0))                                                                     \
     {                                                                                              \
-      this->Options->name = isOn != 0;                                                             \
+      (held) = isOn != 0;                                                                          \
       this->Modified();                                                                            \
     }                                                                                              \
   }                                                                                                \
   vtkTypeBool filter::Get##name()                                                                  \
   {                                                                                                \
-    return this->Options->name;                                                                    \
+    return held;                                                                                   \
   }
 
 #endif

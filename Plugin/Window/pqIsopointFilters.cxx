@@ -10,8 +10,10 @@
 #include "pqServerManagerModel.h"
 #include "pqView.h"
 
+#include "vtkDataObject.h"
 #include "vtkNew.h"
 #include "vtkOutputWindow.h"
+#include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
 #include "vtkSMIsopointRepresentationDomain.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
@@ -25,10 +27,10 @@
 
 #include <QList>
 #include <QObject>
-#include <QStringList>
 
 #include <algorithm>
 #include <cstring>
+#include <map>
 #include <string>
 
 namespace
@@ -85,7 +87,7 @@ void pqIsopointFilters::follow(pqServerManagerModelItem* item)
   if (isNew)
   {
     hideSplatsBehind(filter);
-    explainEmptySlice(filter);
+    explainEmptyResult(filter);
   }
 }
 
@@ -149,23 +151,80 @@ void pqIsopointFilters::hideSplatsBehind(pqPipelineFilter* filter)
   }
 }
 
-void pqIsopointFilters::explainEmptySlice(pqPipelineFilter* filter)
+namespace
 {
-  static const QStringList filtersOfCells{ "Cut", "SliceWithPlane", "SliceAlongPolyLine",
-    "Contour" };
-  if (!filtersOfCells.contains(filter->getProxy()->GetXMLName()) ||
-      filter->getOutputPort(0)->getDataInformation()->GetNumberOfPoints() > 0)
+
+/// Whether points have an array whose components are all 0.
+bool isZero(vtkPVDataInformation* data, const std::string& name)
+{
+  vtkPVArrayInformation* const array =
+    data->GetArrayInformation(name.c_str(), vtkDataObject::POINT);
+  bool isZero = array != nullptr;
+  for (int i = 0; isZero && i < array->GetNumberOfComponents(); ++i)
+  {
+    double range[2];
+    array->GetComponentFiniteRange(i, range);
+    isZero = range[0] == 0.0 && range[1] == 0.0;
+  }
+  return isZero;
+}
+
+/// Whether the output of a filter that needs cells shows that there were none.
+bool isWithoutCells(pqPipelineFilter* filter)
+{
+  vtkPVDataInformation* const output = filter->getOutputPort(0)->getDataInformation();
+  vtkSMProxy* const proxy = filter->getProxy();
+  const std::string gradient = proxy->GetProperty("ResultArrayName")
+                                 ? vtkSMPropertyHelper(proxy, "ResultArrayName").GetAsString()
+                                 : "";
+  return output->GetNumberOfPoints() == 0 || isZero(output, "vtkValidPointMask") ||
+         (!gradient.empty() && isZero(output, gradient));
+}
+
+/// Whether data are points, perhaps with vertices. Only a guess: meshes may have as many cells.
+bool mayBePoints(vtkPVDataInformation* data)
+{
+  const auto cells = data->GetNumberOfCells();
+  return data->GetNumberOfPoints() > 0 && !data->IsDataStructured() &&
+         (cells <= 1 || cells == data->GetNumberOfPoints());
+}
+
+} // namespace
+
+void pqIsopointFilters::explainEmptyResult(pqPipelineFilter* filter)
+{
+  // Filters of cells, and what to use for points.
+  static const std::map<std::string, std::string> filtersOfPoints{ { "Contour",
+                                                                     "Scattered Isosurface" },
+    { "Cut", "Scattered Slice" }, { "SliceWithPlane", "Scattered Slice" },
+    { "SliceAlongPolyLine", "Scattered Probe" }, { "Gradient", "Scattered Gradient" },
+    { "ProbeLine", "Scattered Line" }, { "ResampleToLine", "Scattered Line" },
+    { "ResampleToImage", "Scattered Grid" }, { "ResampleWithDataset", "Scattered Probe" } };
+  const auto found = filtersOfPoints.find(filter->getProxy()->GetXMLName());
+  if (found == filtersOfPoints.end() || !isWithoutCells(filter))
   {
     return;
   }
   const QList<pqOutputPort*> inputs = filter->getAllInputs();
-  if (std::any_of(inputs.begin(), inputs.end(),
-        [](pqOutputPort* input)
-        { return vtkSMIsopointRepresentationDomain::AreIsopoints(input->getDataInformation()); }))
+  const auto isAny = [&](auto has)
   {
-    const std::string message = std::string(filter->getProxy()->GetXMLLabel()) +
-                                " yields nothing from isopoints, which have no cells."
-                                " Apply it to the triangles of Scattered Isosurface instead.\n";
+    return std::any_of(inputs.begin(), inputs.end(),
+      [&](pqOutputPort* input) { return has(input->getDataInformation()); });
+  };
+  const std::string label = filter->getProxy()->GetXMLLabel();
+  std::string message;
+  if (isAny(vtkSMIsopointRepresentationDomain::AreIsopoints))
+  {
+    message = label + " yields nothing from isopoints, which have no cells."
+                      " Apply it to the triangles of Scattered Isosurface instead.\n";
+  }
+  else if (isAny(mayBePoints))
+  {
+    message =
+      label + " yields nothing from points without cells. Apply " + found->second + " instead.\n";
+  }
+  if (!message.empty())
+  {
     vtkOutputWindowDisplayWarningText(message.c_str());
   }
 }

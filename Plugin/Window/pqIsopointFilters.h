@@ -35,7 +35,7 @@ private:
   static void hideSplatsBehind(pqPipelineFilter* filter);
 
   /// Explains what to do if a new filter yields nothing because it needs cells other than vertices.
-  static void explainEmptySlice(pqPipelineFilter* filter);
+  static void explainEmptyResult(pqPipelineFilter* filter);
 
   QSet<pqServerManagerModelItem*> NewItems;
   std::unique_ptr<QObject> Following; // receives signals

@@ -37,6 +37,9 @@ void pqIsopointSearch::updateEntries()
   const std::pair<const char*, const char*> names[] = {
     { "ScatteredIsopoints", "Contour samples as points" },
     { "ScatteredIsosurface", "Contour samples as triangles" },
+    { "ScatteredGrid", "Resample samples to an image" },
+    { "ScatteredProbe", "Resample samples with a data set" },
+    { "ScatteredLine", "Plot samples over a line" },
   };
   for (const auto& [filter, name] : names)
   {
@@ -44,7 +47,7 @@ void pqIsopointSearch::updateEntries()
     if (auto* const action = pqCoreUtilities::mainWidget()->findChild<QAction*>(filter))
     {
       auto* const entry = new QAction(action->icon(), name, this->Entries.get());
-      entry->setObjectName(action->objectName() + "Contour"); // the search needs distinct names
+      entry->setObjectName(action->objectName() + "Entry"); // the search needs distinct names
       entry->setEnabled(action->isEnabled());
       entry->setData(action->data());
       QObject::connect(entry, &QAction::triggered, action, &QAction::trigger);

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Isosurfaces directly from scattered samples.
 
-contour() takes and returns NumPy arrays, or data sets of VTK and PyVista; probe() and gradient() interpolate
-samples at places; Samples keeps the tree between calls. All only need NumPy. With the project's VTK modules, the
-package also has their classes; with its ParaView plugin, load_plugin() and ray_trace().
+contour() takes and returns NumPy arrays, or data sets of VTK and PyVista; slice_samples() gives slices, and
+probe() and gradient() interpolate samples at places; Samples keeps the tree between calls. All only need NumPy.
+With the project's VTK modules, the package also has their classes; with its ParaView plugin, load_plugin() and
+ray_trace().
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from .contouring import contour as contour
 from .plugin import load_plugin as load_plugin
 from .probing import gradient as gradient
 from .probing import probe as probe
+from .slicing import slice_samples as slice_samples
 
 __version__ = _library.version().decode()
 
@@ -33,7 +35,9 @@ _MODULES = {
     **dict.fromkeys(("vtkIsopointSplatPolygons", "vtkScatteredIsopointFilter", "vtkScatteredIsosurfaceFilter"),
                     (*_COMPILED, "_vtk")),
     **dict.fromkeys(("vtkIsopointPolygonMapper", "vtkIsopointRayTracer", "vtkIsopointSplatMapper",
-                     "vtkScatteredContourFilter"), _COMPILED)}
+                     "vtkScatteredAlgorithm", "vtkScatteredContourFilter", "vtkScatteredGradientFilter",
+                     "vtkScatteredGridFilter", "vtkScatteredLineFilter", "vtkScatteredProbeFilter",
+                     "vtkScatteredSliceFilter"), _COMPILED)}
 
 if TYPE_CHECKING:
     ray_trace: Any
@@ -41,13 +45,20 @@ if TYPE_CHECKING:
     vtkIsopointRayTracer: Any
     vtkIsopointSplatMapper: Any
     vtkIsopointSplatPolygons: Any
+    vtkScatteredAlgorithm: Any
     vtkScatteredContourFilter: Any
+    vtkScatteredGradientFilter: Any
+    vtkScatteredGridFilter: Any
     vtkScatteredIsopointFilter: Any
     vtkScatteredIsosurfaceFilter: Any
+    vtkScatteredLineFilter: Any
+    vtkScatteredProbeFilter: Any
+    vtkScatteredSliceFilter: Any
 else:
     def __getattr__(name):
         if name == "__all__":
-            return ["Interpolator", "Isosurface", "Samples", "contour", "gradient", "load_plugin", "probe", *_found()]
+            return ["Interpolator", "Isosurface", "Samples", "contour", "gradient", "load_plugin", "probe",
+                    "slice_samples", *_found()]
         if name not in _MODULES:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
         for module in map(_module, _MODULES[name]):

@@ -57,6 +57,8 @@ def readable(name: str, array: Any) -> np.ndarray:
         result = result.astype(np.float32)
     elif result.dtype.kind == "f" and result.dtype.itemsize > 8:
         result = result.astype(np.float64)
+    if result.dtype.kind == "O" and result.ndim == 0:
+        raise TypeError(f"{name} cannot be {'None' if array is None else 'a ' + type(array).__name__}: give numbers")
     if result.dtype.kind not in "fiu":
         remedy = ": convert them, as by astype(float)" if result.dtype.kind == "O" else ""
         raise TypeError(f"{name} are of the type {result.dtype}, not real numbers{remedy}")

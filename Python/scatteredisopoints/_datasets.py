@@ -8,12 +8,12 @@ points and cells are samples.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Callable, Iterator, Optional, Sequence
+from typing import Any, Callable, Iterable, Iterator, Optional, Sequence
 
 import numpy as np
 
 from ._arrays import (
-    CELL, FLOAT, POINT, as_numpy, column, module_of, package_of, positions_of, readable, values_of)
+    CELL, FLOAT, POINT, as_numpy, module_of, package_of, positions_of, values_of)
 from ._ghosts import excluded_cells, excluded_points, ghosts_of
 from ._library import Message
 from ._polydata import PolyDataMaker
@@ -33,6 +33,7 @@ class DataSamples:
     arrays: Optional[dict[str, Any]]  # None: the caller passes arrays for each isosurface
     maker: PolyDataMaker
     without_array: int = 0  # points or cells of blocks without the array
+    differing: tuple[str, ...] = ()  # arrays that not all blocks have alike
     masked: Optional[np.ndarray] = None  # bool: which values are masked; None without any
     name: str = ""  # of the values, for messages
     association: int = POINT  # of the first block
@@ -40,7 +41,7 @@ class DataSamples:
 
 
 def data_object(source: Any) -> Any:
-    """The data object that an object is or wraps (vedo); None for arrays."""
+    """The data object that an object is or wraps (vedo); None for arrays. Raises TypeError for a filter."""
     if hasattr(source, "IsA") and hasattr(source, "GetDataObjectType"):
         return source
     if isinstance(source, (np.ndarray, list, tuple)):
@@ -51,6 +52,8 @@ def data_object(source: Any) -> Any:
             wrapped = wrapped()
         if hasattr(wrapped, "IsA"):
             return wrapped
+    if hasattr(source, "GetOutputDataObject"):
+        raise TypeError(f"A {source.GetClassName()} is no data set: call Update() and give its GetOutput().")
     return None
 
 
@@ -74,6 +77,14 @@ def leaves(data: Any) -> Iterator[Any]:
         yield from (place.GetCurrentDataObject() for place in places(data))
     else:
         yield data
+
+
+def bounds_of(data: Any) -> np.ndarray:
+    """The bounds of all points, in the shape (3, 2). Raises NoSamplesError if there are none."""
+    boxes = [leaf.GetBounds() for leaf in leaves(data) if leaf.IsA("vtkDataSet") and leaf.GetNumberOfPoints() > 0]
+    if not boxes:
+        raise NoSamplesError()
+    return np.stack([np.min(boxes, axis=0)[::2], np.max(boxes, axis=0)[1::2]], axis=1)
 
 
 def state_of(data: Any) -> tuple:
@@ -127,27 +138,41 @@ def samples_of(
         found = _find(leaf, values, associations, attribute)
         return None if found is None else _block(leaf, *found)
 
-    return _gathered(data, block_of, values, associations)
+    def describe(leaf: Any) -> str:
+        elements = _elements(associations)
+        wanted = f"active {elements} scalars" if values is None else f"{elements} array named {_quoted([values])}"
+        return f"The input has no {wanted}. {_choice_of(leaf)}"
+
+    return _gathered(data, block_of, describe)
 
 
 def samples_with(data: Any, names: Sequence[str], associations: tuple[int, ...]) -> DataSamples:
     """The samples of a data object without values, at the points or cells with arrays of all these names."""
+    lacking = set(names)
 
     def block_of(leaf: Any) -> Optional[DataSamples]:
         for association in associations:
             count = leaf.GetNumberOfElements(association)
             found = {name for name, array, _ in named_arrays(leaf.GetAttributes(association))
                      if array.GetNumberOfTuples() == count}
+            lacking.difference_update(found)
             if found.issuperset(names) and (found or len(associations) == 1):
                 return _block(leaf, association, None)
         return None
 
-    return _gathered(data, block_of, '" and "'.join(names) or None, associations)
+    def describe(leaf: Any) -> str:
+        if names and not lacking:
+            return (f"The arrays {_quoted(names)} are in different blocks, or some are of points and others of cells:"
+                    " give them in separate calls.")
+        named = f"array named {_quoted(each for each in names if each in lacking)}" if names else "array of numbers"
+        return f"The input has no {_elements(associations)} {named}. {_choice_of(leaf)}"
+
+    return _gathered(data, block_of, describe)
 
 
-def _gathered(data: Any, block_of: Callable[[Any], Optional[DataSamples]], name: Optional[str],
-              associations: tuple[int, ...]) -> DataSamples:
-    """The samples of all blocks for which there are some; the name is that of the arrays wanted."""
+def _gathered(data: Any, block_of: Callable[[Any], Optional[DataSamples]], describe: Callable[[Any], str]
+              ) -> DataSamples:
+    """The samples of all blocks for which there are some. Of a block without, the other function says what lacks."""
     if not (data.IsA("vtkDataSet") or data.IsA("vtkCompositeDataSet")):
         remedy = ("convert it to points first" if data.IsA("vtkTable") else
                   "apply vtkHyperTreeGridCellCenters first" if data.IsA("vtkHyperTreeGrid") else
@@ -165,7 +190,7 @@ def _gathered(data: Any, block_of: Callable[[Any], Optional[DataSamples]], name:
             without_array += size
             lacking = leaf if lacking is None else lacking
     if not blocks:
-        raise _no_samples(name, associations, lacking, without_array)
+        raise NoSamplesError() if lacking is None else NoSamplesError(describe(lacking), without_array)
     samples = blocks[0] if len(blocks) == 1 else _joined(blocks)
     samples.without_array = without_array
     samples.maker.scalars = samples.maker.scalars or "values"
@@ -223,15 +248,17 @@ def describe_without_array(count: int, name: str) -> Message:
                    is_warning=False, cause=f"blocks without {name}")
 
 
-def _no_samples(
-    name: Optional[str], associations: tuple[int, ...], leaf: Any, without_array: int
-) -> NoSamplesError:
-    if leaf is None:
-        return NoSamplesError()
+def describe_differing(names: Iterable[str]) -> str:
+    """A message about arrays that not all blocks have."""
+    return f"Left out are {_quoted(names)}: not all blocks have these arrays with the same type and components."
 
-    elements = " or ".join(("point", "cell")[association] for association in sorted(associations))
-    wanted = f"active {elements} scalars" if name is None else f'{elements} array named "{name}"'
-    return NoSamplesError(f"The input has no {wanted}. {_choice_of(leaf)}", without_array)
+
+def _quoted(names: Iterable[str]) -> str:
+    return ", ".join(f'"{name}"' for name in names)
+
+
+def _elements(associations: tuple[int, ...]) -> str:
+    return " or ".join(("point", "cell")[association] for association in sorted(associations))
 
 
 def _choice_of(leaf: Any) -> str:
@@ -291,6 +318,7 @@ def _joined(blocks: list[DataSamples]) -> DataSamples:
               for key, array in first.items()
               if all(key in other and other[key].dtype == array.dtype
                      and other[key].shape[1:] == array.shape[1:] for other in others)}
+    differing = {key: None for names in (first, *others) for key in names if key not in arrays}
     uses = {key: use for key, use in blocks[0].maker.uses.items()
             if key in arrays and all(block.maker.uses.get(key) == use for block in blocks)}
     name = next(filter(None, (block.name for block in blocks)), "")
@@ -299,8 +327,18 @@ def _joined(blocks: list[DataSamples]) -> DataSamples:
     values = [as_numpy(block.values) for block in blocks if block.values is not None]
     return DataSamples(np.concatenate(positions), np.concatenate(values) if values else None,
                        np.concatenate(excluded), arrays,
-                       PolyDataMaker(scalars=name or None, uses=uses), name=name,
+                       PolyDataMaker(scalars=name or None, uses=uses), differing=tuple(differing), name=name,
                        are_float=all(each.dtype == np.float32 for each in values))
+
+
+def places_of(places: Any) -> np.ndarray:
+    """Places with shape (n, 3), those of a data set at its points."""
+    data = data_object(places)
+    if data is not None and not data.IsA("vtkDataSet"):
+        remedy = ("pass its blocks one by one, or combine them first" if data.IsA("vtkCompositeDataSet") else
+                  "pass positions, shape (n, 3)")
+        raise TypeError(f"A {data.GetClassName()} has no points of its own: {remedy}.")
+    return positions_of(places if data is None else as_numpy(point_positions(data)), "places")
 
 
 def point_positions(leaf: Any) -> Any:

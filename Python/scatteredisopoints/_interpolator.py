@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ._arrays import readable
+
 if TYPE_CHECKING:
     from ._samples import Samples
 
@@ -38,10 +40,13 @@ class Interpolator:
         return self._evaluate(x, True)
 
     def _evaluate(self, x: tuple, gradient: bool) -> np.ndarray:
-        places = np.asarray(x[0]) if len(x) == 1 else np.stack(np.broadcast_arrays(*x), axis=-1)
+        if len(x) not in (1, 3):
+            raise TypeError(f"an interpolator takes places, shape (..., 3), or x, y and z: not {len(x)} arguments")
+        numbers = [readable("places", each) for each in x]
+        places = numbers[0] if len(x) == 1 else np.stack(np.broadcast_arrays(*numbers), axis=-1)
         if places.shape[-1:] != (3,):
             raise ValueError(f"places have the shape {places.shape}, not (..., 3)")
-        found = self._samples._probe(
-            places.reshape(-1, 3), self._array, gradient, **self._options, stacklevel=4)
+        found = self._samples._probe(places.reshape(-1, 3), self._array, gradient, **self._options, progress=None,
+                                     stacklevel=4, seeks_gaps=False)
         found = found[1] if gradient else found
         return found.reshape(places.shape[:-1] + found.shape[1:])

@@ -24,9 +24,9 @@ from ._paths import LIBRARY
 # isopoint_type
 TYPES = tuple(np.dtype(kind) for kind in ("f4", "f8", "i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8"))
 
-# isopoint_probe_options::outside, and a bit of what isopoint_probe() says about a place
+# isopoint_probe_options::outside, and the bits of what isopoint_probe() says about a place
 OUTSIDE_NUMBER, OUTSIDE_NEAREST, OUTSIDE_EXTRAPOLATE = range(3)
-PLACE_FLAT = 2
+PLACE_OUTSIDE, PLACE_FLAT = 1, 2
 
 # isopoint_status
 OK, INVALID_ARGUMENT, OUT_OF_MEMORY, CANCELED, INTERNAL_ERROR = range(5)
@@ -117,7 +117,7 @@ class Options(ctypes.Structure):
         "compute_gradients", "compute_projection_orders", "output_points_precision",
         "number_of_neighbors", "compute_splats")),
         ("angle", c_double), ("minimum_spacing", c_double), ("keep_tetrahedra", c_int32),
-        ("regularize", c_int32)]
+        ("regularize", c_int32), ("keep_hull_slivers", c_int32)]
 
     def __init__(self):
         super().__init__()

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import difflib
+import math
 import operator
 import re
 from typing import Any, Collection, Mapping, Optional
@@ -24,7 +25,8 @@ CONSTANTS = {
 
 _OF_POINTS = ("angle", "compute_splats", "minimum_spacing", "number_of_neighbors")
 _OF_TRIANGLES = ("regularize",)
-_NOT_OPTIONS = ("size", "triangles", "keep_tetrahedra")
+OF_SLICES = ("regularize", "drop_gaps", "output_points_precision")
+_NOT_OPTIONS = ("size", "triangles", "keep_tetrahedra", "keep_hull_slivers")
 _PARAMETERS = ("arrays", "isovalues", "progress", "threads", "triangles")  # of contour(), which are no options
 
 
@@ -81,10 +83,28 @@ def make_probe_options(method: Any, outside: Any) -> ProbeOptions:
     elif isinstance(outside, str) and outside.lower() == "nearest":
         options.outside = _library.OUTSIDE_NEAREST
     elif isinstance(outside, (float, int, np.floating, np.integer)) and not isinstance(outside, bool):
-        options.outside_number = outside
+        options.outside_number = number_of("outside", outside, math.nan)
     else:
         raise ValueError(f'outside cannot be {outside!r}: it is a number, "nearest", or None for no mask')
     return options
+
+
+def make_slice_options(given: Mapping[str, Any]) -> Options:
+    """The options of the isosurface that is a slice. Raises TypeError for unknown options and ValueError for invalid
+    values."""
+    for name in given:
+        if name not in OF_SLICES:
+            raise TypeError(f"unknown option {name}: {hint(name, OF_SLICES)}")
+    options = make_options(True, {**given, "projection": None, "compute_normals": False})
+    options.keep_hull_slivers = 1
+    return options
+
+
+def with_fits(interpolation: Any) -> bool:
+    """Whether arrays of a slice come from fits. Raises ValueError for invalid values."""
+    if interpolation not in ("fits", "linear"):
+        raise ValueError(f'interpolation cannot be {interpolation!r}: it is "fits" or "linear"')
+    return bool(interpolation == "fits")
 
 
 def thread_count(threads: Optional[int]) -> int:
@@ -132,8 +152,10 @@ def number_of(name: str, value: Any, default: Any) -> Any:
         if isinstance(value, (bool, np.bool_, str)):
             raise TypeError
         number = float(value) if isinstance(default, float) else operator.index(value)
-    except (TypeError, ValueError, OverflowError):
+    except (TypeError, ValueError):
         raise ValueError(f"{name} cannot be {value!r}: it is a number") from None
+    except OverflowError:
+        raise ValueError(f"{name} is out of range: float64 holds numbers up to 1.8e308") from None
     if isinstance(number, int) and not -2**31 <= number < 2**31:
         raise ValueError(f"{name} is {value!r}, which is out of range.")
     return number

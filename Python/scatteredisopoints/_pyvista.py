@@ -3,20 +3,22 @@
 
 from __future__ import annotations
 
+import inspect
 import math
 import threading
 import warnings
 import weakref
 from collections import OrderedDict
-from typing import Any, Callable, Optional, Sequence, Union
+from typing import Any, Callable, Collection, Iterable, Mapping, Optional, Sequence, Union
 
 import numpy as np
 import pyvista as pv
 
 from . import _datasets, _library
-from ._arrays import CELL, POINT, are_names, positions_of
-from ._grids import derivatives, grid_in
+from ._arrays import CELL, POINT, are_names, package_of
+from ._grids import DERIVATIVES, box_of, grid_in, line_between, names_of_derivatives
 from ._options import hint, switch
+from ._polydata import as_vtk
 from ._progress import Progress, shown_progress
 from ._samples import Samples
 from ._splats import polygons_of
@@ -178,7 +180,8 @@ class ScatteredAccessor:
         Returns
         -------
         pyvista.DataSet
-            A shallow copy of ``where``, or a ``PolyData`` of points, with the arrays.
+            A shallow copy of ``where``, or a ``PolyData`` of points, with the arrays, which replace its own of the
+            same names.
 
         Examples
         --------
@@ -216,7 +219,8 @@ class ScatteredAccessor:
         pyvista.PolyData
             The line, with the arrays and ``Distance`` from its begin.
         """
-        return self._probe(pv.Line(pointa, pointb, resolution=resolution), scalars, **_checked_options(options))
+        line, distances = line_between(pointa, pointb, resolution)
+        return self._probe(line, scalars, **_options_of_probe(options), computed={"Distance": distances})
 
     def to_grid(
         self,
@@ -236,7 +240,7 @@ class ScatteredAccessor:
             Distance of points along all axes, or along each, if ``dimensions`` are not given.
         bounds : sequence[float], optional
             ``(x_min, x_max, y_min, ...)`` of the grid, by default those of the data set. With ``spacing`` the grid
-            may end beyond, by less than one spacing.
+            may end beyond, by less than one spacing. A grid has at most 2^31 - 1 points.
         scalars, **options
             As in :meth:`probe`.
 
@@ -245,8 +249,130 @@ class ScatteredAccessor:
         pyvista.ImageData
             The grid, with the arrays.
         """
-        box = np.reshape(self._dataset.bounds if bounds is None else bounds, (3, 2)).astype(float)
-        return self._probe(grid_in(box, dimensions, spacing), scalars, **_checked_options(options))
+        data = self._checked("point")
+        box = box_of(_datasets.bounds_of(data).ravel() if bounds is None else bounds)
+        return self._probe(grid_in(box, dimensions, spacing), scalars, **_options_of_probe(options))
+
+    def slice(
+        self,
+        normal: Union[str, Sequence[float], None] = None,
+        origin: Optional[Sequence[float]] = None,
+        generate_triangles: bool = True,
+        contour: bool = False,
+        progress_bar: bool = False,
+        plane: Optional[pv.PolyData] = None,
+        **options: Any,
+    ) -> pv.PolyData:
+        """Slice scattered samples by a plane.
+
+        Parameters
+        ----------
+        normal : str | sequence[float], default: "x"
+            Normal of the plane: a vector, or the name of an axis, such as ``"-x"``.
+        origin : sequence[float], optional
+            A point on the plane, by default the center of the data set.
+        generate_triangles : bool, default: True
+            Cells are triangles in any case.
+        contour : bool, default: False
+            Contour the slice.
+        progress_bar : bool, default: False
+            Display a progress bar, which requires tqdm or rich.
+        plane : pyvista.PolyData, optional
+            Not supported: give ``normal`` and ``origin``.
+        **options : dict, optional
+            Other parameters of :func:`scatteredisopoints.slice_samples`, such as ``interpolation="linear"``; and
+            ``scalars`` and ``preference``, as in :meth:`probe`.
+
+        Returns
+        -------
+        pyvista.PolyData
+            Triangles with all arrays, which end where the samples end.
+
+        Notes
+        -----
+        Slices along the normal of the last one take a fraction of its time.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import pyvista as pv
+        >>> cloud = pv.PolyData(np.random.default_rng(1).random((20000, 3)))
+        >>> cloud["height"] = cloud.points[:, 2]
+        >>> cloud.scattered.slice("z", (0, 0, 0.3)).bounds[4:]
+        (0.3, 0.3)
+        """
+        if plane is not None:
+            raise TypeError("plane is not supported: give its normal and its origin")
+        return self._slice("x" if normal is None else normal, origin, None, contour, progress_bar, options)
+
+    def slice_orthogonal(
+        self,
+        x: Optional[float] = None,
+        y: Optional[float] = None,
+        z: Optional[float] = None,
+        generate_triangles: bool = True,
+        contour: bool = False,
+        progress_bar: bool = False,
+        **options: Any,
+    ) -> pv.MultiBlock:
+        """Slice scattered samples by three orthogonal planes.
+
+        Parameters
+        ----------
+        x, y, z : float, optional
+            Where the planes cross the axes, by default at the center of the data set.
+        generate_triangles, contour, progress_bar, **options
+            As in :meth:`slice`.
+
+        Returns
+        -------
+        pyvista.MultiBlock
+            The slices ``YZ``, ``XZ`` and ``XY``.
+        """
+        center = _datasets.bounds_of(self._checked("point")).mean(axis=1)
+        origin = [middle if place is None else place for place, middle in zip((x, y, z), center)]
+        return pv.MultiBlock({name: self._slice(axis, origin, None, contour, progress_bar, options)
+                              for name, axis in (("YZ", "x"), ("XZ", "y"), ("XY", "z"))})
+
+    def slice_implicit(
+        self,
+        implicit_function: Any,
+        generate_triangles: bool = True,
+        contour: bool = False,
+        progress_bar: bool = False,
+        **options: Any,
+    ) -> pv.PolyData:
+        """Slice scattered samples by an implicit function.
+
+        Parameters
+        ----------
+        implicit_function : vtkImplicitFunction | callable
+            The slice is where it is 0. A callable gets points of shape (n, 3), and returns n numbers.
+        generate_triangles, contour, progress_bar, **options
+            As in :meth:`slice`.
+
+        Returns
+        -------
+        pyvista.PolyData
+            As of :meth:`slice`.
+        """
+        if implicit_function is None:
+            raise TypeError("implicit_function is missing")
+        return self._slice("x", None, implicit_function, contour, progress_bar, options)
+
+    def _slice(self, normal: Any, origin: Any, function: Any, contour: bool, progress: Progress,
+               options: Mapping[str, Any]) -> pv.PolyData:
+        options = dict(options)
+        scalars, preference = options.pop("scalars", None), options.pop("preference", "point")
+        offsets, interpolation = options.pop("offsets", 0.0), options.pop("interpolation", "fits")
+        threads = options.pop("threads", None)
+        samples, arrays = self._samples_with(scalars, preference, progress, threads)
+        if origin is None and function is None:
+            origin = _datasets.bounds_of(self._dataset).mean(axis=1)
+        arrays = None if scalars is None else arrays  # all of them
+        result = samples._slice(normal, origin, arrays, function, offsets, interpolation, threads, progress, options,
+                                stacklevel=4).polydata
+        return result.contour() if switch("contour", contour) and result.n_cells else result
 
     def compute_derivative(
         self,
@@ -283,41 +409,40 @@ class ScatteredAccessor:
             scalars, preference = _active_scalars(self._dataset)
         if are_names(scalars):
             raise TypeError("scalars are one array: call compute_derivative() for each")
-        wanted = {name: name if flag is True else flag for name, flag in (
-            ("gradient", gradient), ("divergence", divergence), ("vorticity", vorticity), ("qcriterion", qcriterion))
-            if isinstance(flag, str) or (flag is not None and switch(name, flag))}
+        wanted = names_of_derivatives(gradient, divergence, vorticity, qcriterion)
         samples, _ = self._samples_with(scalars, preference, progress_bar, threads)
         if not hasattr(self._dataset, "GetCellData"):
             raise TypeError(f"A {type(self._dataset).__name__} has no samples of its own: call compute_derivative()"
                             " for each block.")
-        places = samples._current("positions", samples._positions)
-        _, gradients = samples._probe(places, scalars, True, method, math.nan, threads, progress_bar, stacklevel=3)
+        gradients = samples._gradient(scalars, method, threads, progress_bar, stacklevel=3)
         count = math.prod(gradients.shape[1:-1])
-        if count != 3 and set(wanted) - {"gradient"}:
-            raise ValueError(f"{' and '.join(set(wanted) - {'gradient'})} need an array of three components, not of"
-                             f" {count}: choose vectors as scalars")
-        found = derivatives(gradients.reshape(len(places), count, 3))
+        of_vectors = [name for name in wanted if name != "gradient"]
+        if count != 3 and of_vectors:
+            shown = f'"{scalars}" has' if isinstance(scalars, str) else "scalars have"
+            raise ValueError(f"{' and '.join(of_vectors)} cannot be computed, because {shown} {count}"
+                             f" component{'s' if count > 1 else ''}: choose vectors, which have three")
+        gradients = gradients.reshape(len(gradients), count, 3)
         result = self._dataset.copy(deep=False)
-        for name, label in wanted.items():
-            (result.cell_data if samples._association == CELL else result.point_data)[label] = found[name]()
+        attributes = result.cell_data if samples._association == CELL else result.point_data
+        _warn_of_replaced(wanted.values(), attributes.keys(), stacklevel=3)
+        _add_arrays(attributes, {label: DERIVATIVES[name](gradients) for name, label in wanted.items()})
         return result
 
-    def _probe(self, where: Any, scalars: Any, gradient: bool = False, method: str = "BLEND",
-               outside: Union[float, str, None] = math.nan, preference: str = "point",
-               progress_bar: bool = False, threads: Optional[int] = None) -> Any:
+    def _probe(self, where: Any, scalars: Any, gradient: bool, method: str, outside: Union[float, str, None],
+               preference: str, progress_bar: bool, threads: Optional[int],
+               computed: Optional[Mapping[str, np.ndarray]] = None) -> Any:
+        """probe(), with further arrays that are computed."""
         data = _datasets.data_object(where)
-        result = pv.PolyData(positions_of(where, "places").copy()) if data is None else pv.wrap(data)
-        if not isinstance(result, pv.DataSet):
-            raise TypeError(f"A {type(where).__name__} has no points of its own: pass its blocks, or combine them"
-                            " first.")
+        places = pv.PolyData(_datasets.places_of(where).copy()) if data is None else data
         samples, arrays = self._samples_with(scalars, preference, progress_bar, threads)
-        found = samples._probe(np.asarray(result.points), arrays, gradient, method, outside, threads, progress_bar,
-                               stacklevel=4)
+        found = samples._probe(places, arrays, gradient, method, outside, threads, progress_bar, stacklevel=4)
         values, gradients = found if gradient else (found, {})
-        result = result.copy(deep=False)
-        for name, array in [*values.items(), *((name + "_gradient", array) for name, array in gradients.items())]:
-            if len(array):  # PyVista allows no empty array
-                result.point_data[name] = array.reshape(len(array), -1) if array.ndim > 1 else array
+        computed = {**{name + "_gradient": array for name, array in gradients.items()}, **(computed or {})}
+        _warn_of_replaced(computed, values, stacklevel=4)
+        if scalars is None and samples._differing:
+            warnings.warn(_datasets.describe_differing(samples._differing), RuntimeWarning, stacklevel=3)
+        result = pv.wrap(places).copy(deep=False)
+        _add_arrays(result.point_data, {**values, **computed})
         return result
 
     def _samples_with(self, scalars: Any, preference: str, progress: Progress, threads: Optional[int]
@@ -358,13 +483,30 @@ class ScatteredAccessor:
                              progress, threads, keeps)
 
 
-def _checked_options(options: dict[str, Any]) -> dict[str, Any]:
-    """Those of ScatteredAccessor.probe(). Raises TypeError if one is not."""
-    names = ("gradient", "method", "outside", "preference", "progress_bar", "threads")
-    for name in options:
-        if name not in names:
-            raise TypeError(f"unknown option {name}: {hint(name, names)}")
-    return options
+def _options_of_probe(given: Mapping[str, Any]) -> dict[str, Any]:
+    """All of ScatteredAccessor.probe(), with defaults. Raises TypeError if it has no such one."""
+    parameters = inspect.signature(ScatteredAccessor.probe).parameters.values()
+    options = {each.name: each.default for each in parameters if each.kind is each.KEYWORD_ONLY}
+    for name in given:
+        if name not in options:
+            raise TypeError(f"unknown option {name}: {hint(name, options)}")
+    return {**options, **given}
+
+
+def _warn_of_replaced(computed: Iterable[str], given: Collection[str], stacklevel: int) -> None:
+    for name in computed:
+        if name in given:
+            warnings.warn(f'The computed array "{name}" replaces the array of this name: rename that to keep both.',
+                          RuntimeWarning, stacklevel=stacklevel)
+
+
+def _add_arrays(attributes: pv.DataSetAttributes, arrays: Mapping[str, np.ndarray]) -> None:
+    for name, array in arrays.items():
+        array = array.reshape(len(array), math.prod(array.shape[1:])) if array.ndim > 1 else array
+        if len(array):
+            attributes[name] = array
+        else:  # PyVista adds no empty vectors
+            attributes.VTKObject.AddArray(as_vtk(package_of(attributes.VTKObject), name, array))
 
 
 def _loaded(found: _datasets.DataSamples, progress: Progress, threads: Optional[int],

@@ -17,10 +17,15 @@ import numpy as np
 from . import _datasets, _library
 from ._arrays import (
     are_names, as_numpy, describe_masked, further_arrays, isovalues_of, positions_of, readable, tensors, values_of)
+from ._cuts import Cut, Normal, describe_empty, make_cut, rounded, shares_to_zero
 from ._interpolator import Interpolator
 from ._isosurface import Isosurface
-from ._options import CONSTANTS, hint, make_options, make_probe_options, switch, thread_count
-from ._progress import Progress, shown_progress
+from ._options import (
+    CONSTANTS, hint, make_options, make_probe_options, make_slice_options, switch, thread_count, with_fits)
+from ._progress import Progress, part, shown_progress
+
+_VALUES = "values"
+"""The key of the samples' own values: see Samples._hold()."""
 
 
 @dataclass
@@ -94,6 +99,7 @@ class Samples:
         """Frees the samples and their tree."""
         self._extractor = _library.Extractor(_library.create_extractor())
         self._is_loaded = False
+        self._held: Any = None
         self._values: Any = None
 
     def _renew_lock(self) -> None:
@@ -104,8 +110,10 @@ class Samples:
         """Loads samples; keeps the tree if the positions are the same."""
         self._positions, self._excluded = samples.positions, samples.excluded
         self._count = len(as_numpy(samples.positions))
+        self._center: Optional[np.ndarray] = None
         self._arrays, self._maker = samples.arrays, samples.maker
         self._without_array, self._name = samples.without_array, samples.name
+        self._differing = samples.differing
         self._association = samples.association
         self._load(samples.values, samples.masked, samples.are_float, **callbacks)
 
@@ -161,25 +169,34 @@ class Samples:
               **callbacks: Any) -> None:
         if self._count == 0:
             raise ValueError("There are no samples: the input has no points.")
-        positions = positions_of(self._current("positions", self._positions))
         numbers = None if values is None else readable("values", as_numpy(values))
-        left_out = [each for each in (self._excluded, masked) if each is not None]
-        most_threads = thread_count(self._threads)
         with self._exclusive():
-            self._is_loaded = False
+            self._is_loaded, self._held = False, None
             self._values, self._masked = values, masked
-            _library.run(_library.set_threads, self._extractor, most_threads)
+            _library.run(_library.set_threads, self._extractor, thread_count(self._threads))
             _library.run(_library.set_name, self._extractor, self._name.encode(errors="replace"))
-            _library.run_with(
-                _library.Callbacks(**callbacks), self._extractor, _library.set_samples, positions, numbers,
-                np.any(left_out, axis=0).view(np.uint8) if left_out else None)
-            range_ = (2 * c_double)()
-            _library.get_value_range(self._extractor, byref(range_))
-            self._range = range_[0], range_[1]
+            self._hold(_VALUES, numbers, [self._excluded, masked], callbacks)
+            self._range = self._held_range()
             self._skipped = _library.get_skipped_count(self._extractor)
             is_float = numbers is not None and numbers.dtype == np.float32
             self._value_type = np.float32 if are_float and is_float else np.float64
             self._is_loaded = True
+
+    def _hold(self, key: Any, numbers: Any, left_out: list[Optional[np.ndarray]], callbacks: Mapping[str, Any]
+              ) -> None:
+        """Makes these numbers the values that the extractor holds. Their key says which ones they are."""
+        self._held = None
+        positions = positions_of(self._current("positions", self._positions))
+        masks = [each for each in left_out if each is not None]
+        _library.run_with(
+            _library.Callbacks(**callbacks), self._extractor, _library.set_samples, positions, numbers,
+            np.any(masks, axis=0).view(np.uint8) if masks else None)
+        self._held = key
+
+    def _held_range(self) -> tuple[float, float]:
+        range_ = (2 * c_double)()
+        _library.get_value_range(self._extractor, byref(range_))
+        return range_[0], range_[1]
 
     def _require_samples(self) -> None:
         if not self._is_loaded:
@@ -231,19 +248,15 @@ class Samples:
         of_samples = further_arrays(arrays, len(self)) if self._arrays is None else self._arrays
         threads = self._threads if threads is None else threads
         most_threads = thread_count(threads)
-        pointer = c_void_p()
         with self._exclusive():
             self._require_samples()
             if self._values is None:
                 raise ValueError("The samples were made without values: call replace_values().")
             _library.run(_library.set_threads, self._extractor, most_threads)
-            try:
-                _library.run_with(
-                    _library.Callbacks(**callbacks), self._extractor, _library.extract,
-                    (len(levels) * c_double)(*levels), len(levels), byref(chosen), byref(pointer))
-            finally:
-                if pointer.value:
-                    surface = _library.Surface(pointer.value)
+            if self._held != _VALUES:  # but those of a slice
+                self._hold(_VALUES, readable("values", as_numpy(self._values)), [self._excluded, self._masked],
+                           {**callbacks, "progress": None})
+            surface = self._surface(levels, chosen, callbacks)
             value_type, masked = self._value_type, self._masked
         messages = []
         if masked is not None:
@@ -266,6 +279,142 @@ class Samples:
             for name in computed if name in found]
         found.update(computed)
         return Extracted(self._as_isosurface(surface, found, chosen, threads), surface, messages)
+
+    def _surface(self, levels: list[float], options: _library.Options, callbacks: Mapping[str, Any]
+                 ) -> _library.Surface:
+        """The isosurfaces of the values that the extractor holds."""
+        pointer = c_void_p()
+        try:
+            _library.run_with(
+                _library.Callbacks(**callbacks), self._extractor, _library.extract,
+                (len(levels) * c_double)(*levels), len(levels), byref(options), byref(pointer))
+        finally:
+            if pointer.value:
+                surface = _library.Surface(pointer.value)
+        return surface
+
+    def slice(
+        self,
+        normal: Normal = "x",
+        origin: Any = None,
+        arrays: Any = None,
+        *,
+        function: Any = None,
+        offsets: Union[float, Iterable[float]] = 0.0,
+        interpolation: str = "fits",
+        threads: Optional[int] = None,
+        progress: Progress = None,
+        **options: Any,
+    ) -> Isosurface:
+        """Slices the samples: :func:`slice_samples` describes parameters, result and errors.
+
+        Slices along the normal of the last one take a fraction of its time.
+
+        Parameters
+        ----------
+        arrays
+            As in :meth:`probe`. None: the values of the samples and the arrays of the data set that they were made
+            of.
+        threads
+            None stands for the number that the object was made with.
+        """
+        return self._slice(normal, origin, arrays, function, offsets, interpolation, threads, progress, options,
+                           stacklevel=3)
+
+    def _slice(self, normal, origin, arrays, function, offsets, interpolation, threads, progress, options,
+               stacklevel) -> Isosurface:
+        fits = with_fits(interpolation)
+        cut, level = make_cut(normal, origin, function, self._center_of_bounds)
+        levels = [level + offset for offset in isovalues_of(offsets)]
+        chosen = make_slice_options(options)
+        of_samples = self._sliced_arrays(arrays)
+        threads = self._threads if threads is None else threads
+        most_threads = thread_count(threads)
+        with shown_progress(progress, "Slicing") as report:
+            with self._exclusive():
+                self._require_samples()
+                _library.run(_library.set_threads, self._extractor, most_threads)
+                at_samples = self._hold_cut(cut, part(report, 0.0, 0.3))
+                surface = self._surface(levels, chosen, {"progress": part(report, 0.3, 0.6)})
+                held_range = self._held_range()
+            points = _library.view(surface, _library.POINTS)
+            found = self._interpolated(surface, of_samples, None)
+            if not cut.is_plane and len(points):
+                points = self._moved_onto(cut, at_samples, surface, points, of_samples, found)
+            if fits and len(points):
+                self._fit(points, of_samples, found, threads, part(report, 0.6, 1.0))
+        texts = list(self._describe_left_out())
+        if arrays is None and self._differing:
+            texts.append(_datasets.describe_differing(self._differing))
+        if len(points) == 0:
+            text = describe_empty(levels, *held_range, _library.get_dropped_count(surface), cut.is_plane)
+            texts = [*texts, *([] if text is None else [text])]
+        for text in texts:
+            warnings.warn(text, RuntimeWarning, stacklevel=stacklevel)
+        return Isosurface(points, _library.view(surface, _library.TRIANGLES), found, {}, self._maker, threads=threads)
+
+    def _sliced_arrays(self, arrays: Any) -> dict[str, Any]:
+        """The arrays of a slice by name."""
+        if isinstance(arrays, Mapping) or are_names(arrays):
+            many = arrays if isinstance(arrays, Mapping) else dict(zip(arrays, arrays))
+        elif arrays is not None:
+            many = {arrays if isinstance(arrays, str) else "values": arrays}
+        else:
+            return {**({} if self._values is None else {self._maker.scalars or "values": self._values}),
+                    **(self._arrays or {})}
+        return {name: self._numbers_of(array, str(name)) for name, array in many.items()}
+
+    def _center_of_bounds(self) -> np.ndarray:
+        if self._center is None:
+            positions = as_numpy(self._positions)
+            is_finite = np.isfinite(positions)
+            box = [find(positions, axis=0, where=is_finite, initial=initial)
+                   for find, initial in ((np.min, np.inf), (np.max, -np.inf))]
+            self._center = np.where(is_finite.any(axis=0), 0.5 * box[0] + 0.5 * box[1], 0.0).astype(np.float64)
+        return self._center
+
+    def _hold_cut(self, cut: Cut, report: Any) -> Optional[np.ndarray]:
+        """Makes the values of a function those that the extractor holds. Returns them, unless it had them."""
+        if cut.key is not None and self._held == cut.key:
+            return None
+        positions = self._current("positions", self._positions).astype(np.float64, copy=False)
+        at_samples = cut.at(positions)
+        lacking = np.count_nonzero(~np.isfinite(at_samples) & np.isfinite(positions).all(axis=1))
+        if lacking:
+            raise ValueError(f"function is not finite at {lacking} of {self._count} samples")
+        left_out = [self._excluded]
+        if self._values is not None:  # the same samples as for their isosurfaces, whose tree is kept
+            left_out += [self._masked, ~np.isfinite(as_numpy(self._values))]
+        self._hold(cut.key, at_samples, left_out, {"progress": report})
+        return at_samples
+
+    def _moved_onto(self, cut, at_samples, surface, points, of_samples, found) -> np.ndarray:
+        """Moves vertices towards the sample at an end of their edge on the other side of the function, as far as it
+        crosses zero, and arrays with them."""
+        levels, edges = (_library.view(surface, each) for each in (_library.ISOVALUES, _library.EDGES))
+        dtype, points = points.dtype, points.astype(np.float64)
+        before = cut.at(points) - levels
+        is_second = (at_samples[edges[:, 1]] >= levels) != (before >= 0.0)
+        ends = np.where(is_second, edges[:, 1], edges[:, 0])
+        ways = self._current("positions", self._positions)[ends] - points
+        shares = shares_to_zero(
+            lambda which, share: cut.at(points[which] + share[:, None] * ways[which]) - levels[which],
+            before, at_samples[ends] - levels)
+        for name, array in of_samples.items():
+            if self._maker.uses.get(name) != _datasets.PEDIGREE_IDS:
+                share = shares.reshape(-1, *[1] * (found[name].ndim - 1))
+                at_ends = readable(name, self._current(name, array))[ends]
+                found[name] = rounded((1.0 - share) * found[name] + share * at_ends, found[name].dtype)
+        return (points + shares[:, None] * ways).astype(dtype)
+
+    def _fit(self, points, of_samples, found, threads, report) -> None:
+        """Replaces arrays at points by those of fits, where there are some. Fits extrapolate at rims: edges of slivers
+        on the convex hull are far too long for linear interpolation."""
+        fitted = {name: self._numbers_of(array, name) for name, array in of_samples.items()
+                  if self._maker.uses.get(name) != _datasets.PEDIGREE_IDS}
+        values, _, _ = self._probed(points, fitted, make_probe_options("BLEND", None), False, threads, report)
+        for name, numbers in values.items():
+            found[name] = np.where(np.isfinite(numbers), rounded(numbers, found[name].dtype), found[name])
 
     def probe(
         self,
@@ -301,11 +450,19 @@ class Samples:
         """A function of places, called as the interpolators of SciPy are. Parameters are those of :meth:`probe`."""
         if isinstance(array, Mapping) or are_names(array):
             raise TypeError("an interpolator has one array: make one for each")
-        self._numbers_of(array)
+        numbers = self._numbers_of(array)
         make_probe_options(method, outside)
-        return Interpolator(self, array, dict(method=method, outside=outside, threads=threads, progress=None))
+        for text in self._describe_gaps("values", array, numbers):
+            warnings.warn(text, RuntimeWarning, stacklevel=2)
+        return Interpolator(self, array, dict(method=method, outside=outside, threads=threads))
 
-    def _probe(self, places, arrays, gradient, method, outside, threads, progress, stacklevel) -> Any:
+    def _gradient(self, arrays, method, threads, progress, stacklevel) -> Any:
+        """Gradients at the samples themselves."""
+        places = self._current("positions", self._positions)
+        return self._probe(places, arrays, True, method, math.nan, threads, progress, stacklevel + 1)[1]
+
+    def _probe(self, places, arrays, gradient, method, outside, threads, progress, stacklevel, seeks_gaps=True) -> Any:
+        """probe(). Seeks entries of the arrays that are no numbers, for a message, which takes a pass over them."""
         chosen, with_gradients = make_probe_options(method, outside), switch("gradient", gradient)
         is_nearest = chosen.method == CONSTANTS["method"]["NEAREST"]
         if with_gradients and is_nearest:
@@ -313,8 +470,21 @@ class Samples:
         are_many = isinstance(arrays, Mapping) or are_names(arrays)
         many = arrays if isinstance(arrays, Mapping) else dict(zip(arrays, arrays)) if are_many else {"values": arrays}
         numbers = {name: self._numbers_of(array, str(name)) for name, array in many.items()}
-        data = _datasets.data_object(places)
-        points = positions_of(places if data is None else as_numpy(_datasets.point_positions(data)), "places")
+        points = _datasets.places_of(places)
+        with shown_progress(progress, "Probing") as report:
+            values, gradients, kinds = self._probed(points, numbers, chosen, with_gradients, threads, report)
+        texts = [*self._describe_left_out(), *_describe_flat(kinds)]
+        for name, array in many.items() if seeks_gaps else ():
+            texts += self._describe_gaps(str(name), array, numbers[name])
+        for text in texts:
+            warnings.warn(text, RuntimeWarning, stacklevel=stacklevel)
+        found = (values, gradients) if are_many else (values["values"], gradients["values"])
+        return found if with_gradients else found[0]
+
+    def _probed(self, points: np.ndarray, numbers: Mapping[str, np.ndarray], options: _library.ProbeOptions,
+                with_gradients: bool, threads: Optional[int], report: Any) -> tuple[dict, dict, np.ndarray]:
+        """Values, gradients and kinds of places."""
+        is_nearest = options.method == CONSTANTS["method"]["NEAREST"]
         values, gradients = {}, {}
         for name, array in numbers.items():
             shape = len(points), *array.shape[1:]
@@ -322,29 +492,31 @@ class Samples:
             gradients[name] = np.empty((*shape, 3)) if with_gradients else None
         kinds = np.empty(len(points), np.uint8)
         most_threads = thread_count(self._threads if threads is None else threads)
-        with shown_progress(progress, "Probing") as report, self._exclusive():
+        with self._exclusive():
             self._require_samples()
             _library.run(_library.set_threads, self._extractor, most_threads)
             _library.run_with(
                 _library.Callbacks(report), self._extractor, _library.probe, points,
-                [array.reshape(len(array), -1) for array in numbers.values()], len(numbers), byref(chosen),
+                [array.reshape(len(array), -1) for array in numbers.values()], len(numbers), byref(options),
                 list(zip(values.values(), gradients.values())), kinds)
-        for text in self._describe_probe(kinds):
-            warnings.warn(text, RuntimeWarning, stacklevel=stacklevel)
-        found = (values, gradients) if are_many else (values["values"], gradients["values"])
-        return found if with_gradients else found[0]
+        return values, gradients, kinds
 
-    def _describe_probe(self, kinds: np.ndarray) -> Iterator[str]:
-        """Messages about places of these kinds."""
+    def _describe_left_out(self) -> Iterator[str]:
+        """Messages about samples that take no part."""
         skipped = self._skipped - (0 if self._excluded is None else np.count_nonzero(self._excluded))
         if skipped > 0:
             yield f"{skipped} of {len(self)} samples are left out: their position or value is not finite, or masked."
-        flat = np.count_nonzero(kinds & _library.PLACE_FLAT)
-        if flat > 0:
-            yield (f"At {flat} of {len(kinds)} places the samples around are in a plane or on a line: values are those"
-                   " at the nearest point of it, and gradients have no part across.")
         if self._without_array:
             yield _datasets.describe_without_array(self._without_array, self._name).text
+
+    def _describe_gaps(self, name: str, array: Any, numbers: np.ndarray) -> Iterator[str]:
+        """A message about entries of an array that are no numbers, unless it is None: the samples' own values."""
+        is_gap = ~np.isfinite(numbers).reshape(len(numbers), -1).all(axis=1)
+        if self._excluded is not None:
+            is_gap &= ~self._excluded
+        if array is not None and is_gap.any():
+            yield (f'{np.count_nonzero(is_gap)} of {len(self)} entries of "{array if isinstance(array, str) else name}"'
+                   " are masked or not finite: results are those of the samples around.")
 
     def _numbers_of(self, array: Any, name: str = "values") -> np.ndarray:
         """The numbers of an array, of a name of one, or the values for None."""
@@ -355,6 +527,8 @@ class Samples:
             array = self._values
         elif isinstance(array, str):
             known = {**(self._arrays or {}), **({self._name: self._values} if self._name else {})}
+            if array in self._differing:
+                raise ValueError(_datasets.describe_differing([array]) + " Convert it, or combine the blocks first.")
             if array not in known:
                 raise ValueError(f'the samples have no array "{array}": ' + (
                     hint(array, known) if known else "give its numbers, for they are of no data set with arrays"))
@@ -373,7 +547,7 @@ class Samples:
             array = readable(name, self._current(name, array))
             found[name] = np.empty((len(edges), *array.shape[1:]), array.dtype)
             _library.run_with(_library.Callbacks(is_canceled=is_canceled), surface, _library.interpolate,
-                              array, found[name])
+                              array if array.ndim < 3 else array.reshape(len(array), -1), found[name])
         return found
 
     def _as_isosurface(self, surface, arrays, options: _library.Options, threads: Optional[int]) -> Isosurface:
@@ -395,6 +569,14 @@ def _renew_locks() -> None:
     """A forked process lacks the threads that may hold them."""
     for samples in _all:
         samples._renew_lock()
+
+
+def _describe_flat(kinds: np.ndarray) -> Iterator[str]:
+    """A message about places of these kinds."""
+    flat = np.count_nonzero((kinds & (_library.PLACE_FLAT | _library.PLACE_OUTSIDE)) == _library.PLACE_FLAT)
+    if flat > 0:
+        yield (f"At {flat} of {len(kinds)} places the samples around are in a plane or on a line: values are those"
+               " at the nearest point of it, and gradients have no part across.")
 
 
 def _computed(surface: _library.Handle, options: _library.Options) -> dict[str, np.ndarray]:

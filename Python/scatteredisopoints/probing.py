@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
-from typing import Any, Mapping, Optional, Union
+from typing import Any, Iterator, Mapping, Optional, Union
 
 import numpy as np
 
@@ -54,9 +55,10 @@ def probe(
 
     Returns
     -------
-    Values of float64, shape (m,) or (m, c); "NEAREST" keeps the type of the array, and integers are 0 outside if
-    they cannot be the number. With gradient, a pair of these and of gradients, shape (m, 3) or (m, c, 3). A dict of
-    arrays gives dicts.
+    Values of float64, shape (m,) or (m, c). "NEAREST" keeps float32, float64 and integers, which are 0 outside if
+    they cannot be the number. Of other types, bool gives uint8, float16 float32, and longdouble float64; integers
+    with masked entries give float32 up to 16 bits, and float64 above. With gradient, a pair of these and of
+    gradients, shape (m, 3) or (m, c, 3). A dict of arrays gives dicts.
 
     Raises
     ------
@@ -70,7 +72,8 @@ def probe(
     Warns
     -----
     RuntimeWarning
-        About samples left out, and about samples in a plane, whose gradients have no normal part.
+        About samples left out, about entries that are masked or not finite, and about samples in a plane, whose
+        gradients have no normal part.
 
     Examples
     --------
@@ -81,7 +84,8 @@ def probe(
     >>> value.round(6), gradient.round(6)
     (array([3.]), array([[1., 2., 3.]]))
     """
-    return _probe(positions, values, places, gradient, method, outside, threads, progress)
+    with _loaded(positions, values, threads, progress) as (samples, report):
+        return samples._probe(places, values, gradient, method, outside, None, report, stacklevel=3)
 
 
 def gradient(
@@ -96,17 +100,18 @@ def gradient(
 
     A mapping of names to arrays gives a dict. Of a data set, the samples are the points or the cells with the array.
     """
-    return _probe(positions, values, None, True, method, math.nan, threads, progress)[1]
+    with _loaded(positions, values, threads, progress) as (samples, report):
+        return samples._gradient(values, method, None, report, stacklevel=3)
 
 
-def _probe(source: Any, values: Any, places: Any, gradient: bool, method: str, outside: Any,
-           threads: Optional[int], progress: Progress) -> Any:
+@contextlib.contextmanager
+def _loaded(source: Any, values: Any, threads: Optional[int], progress: Progress) -> Iterator[tuple[Samples, Progress]]:
+    """The samples, and the progress of what is to come."""
     if values is None:
         raise TypeError("values are missing: numbers of the samples, or the name of an array of a data set")
     with shown_progress(progress, "Probing") as report:
         samples = Samples._of(samples_for(source, values), threads, progress=part(report, 0.0, 0.3))
-        places = samples._current("positions", samples._positions) if places is None else places
-        return samples._probe(places, values, gradient, method, outside, None, part(report, 0.3, 1.0), stacklevel=4)
+        yield samples, part(report, 0.3, 1.0)
 
 
 def samples_for(source: Any, values: Any, associations: tuple[int, ...] = (POINT, CELL)) -> _datasets.DataSamples:
@@ -116,5 +121,6 @@ def samples_for(source: Any, values: Any, associations: tuple[int, ...] = (POINT
         return _datasets.samples_of(source, None)
     if isinstance(values, str) or are_names(values):
         return _datasets.samples_with(data, [values] if isinstance(values, str) else values, associations)
-    first = next(iter(values.values()), ()) if isinstance(values, Mapping) else values
-    return _datasets.samples_with(data, (), (_datasets.association_of(data, np.shape(first)),))
+    first = next(iter(values.values()), None) if isinstance(values, Mapping) else values
+    association = POINT if first is None else _datasets.association_of(data, np.shape(first))
+    return _datasets.samples_with(data, (), (association,))

@@ -248,15 +248,14 @@ public:
   std::vector<std::string> All;
 };
 
-inline vtkSmartPointer<MessageWatcher> watchMessages(
-  vtkScatteredContourFilter* filter, unsigned long event)
+inline vtkSmartPointer<MessageWatcher> watchMessages(vtkAlgorithm* filter, unsigned long event)
 {
   const auto watcher = vtkSmartPointer<MessageWatcher>::Take(MessageWatcher::New());
   filter->AddObserver(event, watcher);
   return watcher;
 }
 
-inline vtkSmartPointer<MessageWatcher> watchErrors(vtkScatteredContourFilter* filter)
+inline vtkSmartPointer<MessageWatcher> watchErrors(vtkAlgorithm* filter)
 {
   return watchMessages(filter, vtkCommand::ErrorEvent);
 }
@@ -309,19 +308,30 @@ inline std::vector<double> pointsOf(vtkPolyData* output)
   return output->GetPoints() ? numbersOf(output->GetPoints()->GetData()) : std::vector<double>();
 }
 
-/// A surface, or those of all blocks.
-inline std::vector<vtkPolyData*> surfacesOf(vtkDataObject* output)
+/// A data object, or all blocks of a composite that are not null.
+inline std::vector<vtkDataObject*> leavesOf(vtkDataObject* output)
 {
   auto* const blocks = vtkCompositeDataSet::SafeDownCast(output);
   if (!blocks)
   {
-    return { vtkPolyData::SafeDownCast(output) };
+    return { output };
   }
-  std::vector<vtkPolyData*> surfaces;
+  std::vector<vtkDataObject*> leaves;
   const auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
   for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
   {
-    surfaces.push_back(vtkPolyData::SafeDownCast(iterator->GetCurrentDataObject()));
+    leaves.push_back(iterator->GetCurrentDataObject());
+  }
+  return leaves;
+}
+
+/// A surface, or those of all blocks.
+inline std::vector<vtkPolyData*> surfacesOf(vtkDataObject* output)
+{
+  std::vector<vtkPolyData*> surfaces;
+  for (vtkDataObject* const leaf : leavesOf(output))
+  {
+    surfaces.push_back(vtkPolyData::SafeDownCast(leaf));
   }
   return surfaces;
 }

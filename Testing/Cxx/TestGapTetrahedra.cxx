@@ -13,9 +13,10 @@ using clouds::fromMiddle;
 using clouds::Vector;
 using triangles::Corners;
 
-std::vector<Corners> foundInGaps(const Cloud& cloud, double isovalue, std::size_t threads = 1)
+std::vector<Corners> foundInGaps(
+  const Cloud& cloud, double isovalue, std::size_t threads = 1, bool keepsHullSlivers = false)
 {
-  return triangles::TetrahedraSearch<>(cloud, threads).inGaps(isovalue);
+  return triangles::TetrahedraSearch<>(cloud, threads).inGaps(isovalue, keepsHullSlivers);
 }
 
 double shareInGaps(const Cloud& cloud, double isovalue)
@@ -29,9 +30,8 @@ struct Tetrahedron
 {
   Corners corners;
   std::vector<std::size_t> neighbors; // across crossing facets
-  bool isAtHull = false;              // has a crossing facet there
   bool isWeak = false;                // has an edge over the weak criterion, or leaving the body
-  bool isStrong = false;
+  bool isSeed = false;                // has one over the strong criterion, or a facet at the hull
 };
 
 /// Whether the edge {x, y} leaves the body at x.
@@ -41,7 +41,23 @@ bool leavesBody(const std::vector<bruteforce::Cell>& cells, std::size_t x, std::
          bruteforce::isDense(cells, x, y, 4.0, 3, 0.0) && !bruteforce::isDense(cells, x, y, 0.5, 2);
 }
 
-std::vector<Tetrahedron> allTetrahedra(const Cloud& cloud, double isovalue)
+/// Whether no sample is near the middle of the edge {x, y}.
+bool isBare(
+  const std::vector<bruteforce::Cell>& cells, std::size_t x, std::size_t y, double factorOfSpacing)
+{
+  const Vector middle = 0.5 * (cells[x].position + cells[y].position);
+  double distance = std::numeric_limits<double>::infinity();
+  for (const bruteforce::Cell& cell : cells)
+  {
+    distance = std::min(distance, isopoint::lengthOf(cell.position - middle));
+  }
+  const double factor =
+    factorOfSpacing * (isopoint::lengthOf(cells[y].position - cells[x].position) / distance);
+  return bruteforce::isDense(cells, x, y, factor, 6, -2.0) ||
+         bruteforce::isDense(cells, y, x, factor, 6, -2.0);
+}
+
+std::vector<Tetrahedron> allTetrahedra(const Cloud& cloud, double isovalue, bool keepsHullSlivers)
 {
   const triangles::FullTetrahedralization full(cloud);
   const std::vector<bruteforce::Cell> cells = bruteforce::Tree(cloud).cells;
@@ -72,14 +88,17 @@ std::vector<Tetrahedron> allTetrahedra(const Cloud& cloud, double isovalue)
       for (int j = 0; j < i; ++j)
       {
         const std::size_t y = cellOf.at(full.idOf(cell->vertex(j)));
-        tetrahedron.isWeak |= bruteforce::isDroppedByGap(cells, x, y, 2.0, 2) ||
-                              leavesBody(cells, x, y) || leavesBody(cells, y, x);
-        tetrahedron.isStrong |= bruteforce::isDroppedByGap(cells, x, y, 4.0, 3);
+        const auto spansVoid = [&](double factor)
+        { return !keepsHullSlivers || isBare(cells, x, y, factor); };
+        const bool isWeak = bruteforce::isDroppedByGap(cells, x, y, 2.0, 2) ||
+                            leavesBody(cells, x, y) || leavesBody(cells, y, x);
+        tetrahedron.isWeak |= isWeak && spansVoid(1.0);
+        tetrahedron.isSeed |= bruteforce::isDroppedByGap(cells, x, y, 4.0, 3) && spansVoid(1.5);
       }
       if (full.isCrossing(cell, isovalue, i))
       {
         const bool isAtHull = full.cells.is_infinite(cell->neighbor(i));
-        tetrahedron.isAtHull |= isAtHull;
+        tetrahedron.isSeed |= isAtHull && !keepsHullSlivers;
         if (!isAtHull)
         {
           tetrahedron.neighbors.push_back(numberOf.at(cell->neighbor(i)));
@@ -115,14 +134,14 @@ std::vector<std::size_t> piecesOf(const std::vector<Tetrahedron>& all, const Kin
 }
 
 /// The rule of docs/triangles.md, piece by piece.
-std::vector<Corners> expectedInGaps(const Cloud& cloud, double isovalue)
+std::vector<Corners> expectedInGaps(const Cloud& cloud, double isovalue, bool keepsHullSlivers)
 {
-  const std::vector<Tetrahedron> all = allTetrahedra(cloud, isovalue);
+  const std::vector<Tetrahedron> all = allTetrahedra(cloud, isovalue, keepsHullSlivers);
   const auto weak = piecesOf(all, [&](std::size_t i) { return all[i].isWeak; });
   std::set<std::size_t> gaps; // pieces
   for (std::size_t i = 0; i < all.size(); ++i)
   {
-    if (all[i].isWeak && (all[i].isStrong || all[i].isAtHull))
+    if (all[i].isWeak && all[i].isSeed)
     {
       gaps.insert(weak[i]);
     }
@@ -157,9 +176,14 @@ TEST(GapTetrahedra, AreThoseOfTheDefinition)
 {
   const auto expectSame = [](const Cloud& cloud, double isovalue)
   {
-    const std::vector<Corners> expected = expectedInGaps(cloud, isovalue);
-    EXPECT_TRUE(foundInGaps(cloud, isovalue) == expected);
-    return expected.size();
+    std::size_t least = std::numeric_limits<std::size_t>::max();
+    for (const bool keepsHullSlivers : { false, true })
+    {
+      const std::vector<Corners> expected = expectedInGaps(cloud, isovalue, keepsHullSlivers);
+      EXPECT_TRUE(foundInGaps(cloud, isovalue, 1, keepsHullSlivers) == expected);
+      least = std::min(least, expected.size());
+    }
+    return least;
   };
   // Blades of random samples with void between them, joined along one side.
   const Cloud comb =
@@ -234,6 +258,18 @@ TEST(GapTetrahedra, AreThoseBetweenABodyAndASheet)
     cloud.add(x, y, z, z);
   }
   EXPECT_GT(shareInGaps(cloud, 0.75), 0.97);
+}
+
+/// Random samples fill their convex hull if slivers there are kept, and only then.
+TEST(GapTetrahedra, AreNoneOfASliceThroughABlock)
+{
+  const Cloud cloud =
+    clouds::withValuesOf(clouds::uniform(20000, 12), [](const Vector& p) { return p[0]; });
+  EXPECT_GT(foundInGaps(cloud, 0.5).size(), 50u);
+  for (const double place : { 0.02, 0.5, 0.9 })
+  {
+    EXPECT_EQ(foundInGaps(cloud, place, 2, true).size(), 0u);
+  }
 }
 
 /// There is no gap between slices at equal distances.

@@ -4,6 +4,13 @@
 #include "FailingAllocator.h"
 #include "FilterTesting.h"
 
+#include "vtkScatteredGradientFilter.h"
+#include "vtkScatteredGridFilter.h"
+#include "vtkScatteredLineFilter.h"
+#include "vtkScatteredProbeFilter.h"
+
+#include "vtkImageData.h"
+
 #include <cerrno>
 
 using namespace filtertesting;
@@ -11,24 +18,19 @@ using namespace filtertesting;
 namespace
 {
 
-/// Makes the n-th large allocation of the update after `prepare` fail, for each n.
-/// @param prepare sets a filter up, ready to be updated
-template <class TFilter>
-void failEach(vtkDataObject* input, const std::function<void(TFilter*)>& prepare)
+/// Makes the n-th large allocation of an update fail, for each n.
+/// @param newPrepared makes a filter, ready to be updated
+/// @param numbersOf all numbers of its output
+/// @param fewest allocations that fail
+template <class TFilter, class Prepare, class Numbers>
+void failEach(const Prepare& newPrepared, const Numbers& numbersOf, int fewest)
 {
-  const auto newPrepared = [&]()
-  {
-    const auto filter = newFilter<TFilter>(input);
-    filter->SetValue(1, 0.5);
-    prepare(filter);
-    return filter;
-  };
-  const auto everythingOfUpdate = [](TFilter* filter)
+  const auto numbersOfUpdate = [&](TFilter* filter)
   {
     filter->Update();
-    return everythingOf(filter->GetOutputDataObject(0));
+    return numbersOf(filter->GetOutputDataObject(0));
   };
-  const std::vector<double> expected = everythingOfUpdate(newPrepared());
+  const std::vector<double> expected = numbersOfUpdate(newPrepared());
   ASSERT_FALSE(expected.empty());
   int failures = 0;
   for (const bool andAllLater : { false, true })
@@ -38,7 +40,7 @@ void failEach(vtkDataObject* input, const std::function<void(TFilter*)>& prepare
     {
       ASSERT_LT(n, 2000);
       SCOPED_TRACE(testing::Message() << "allocation " << n << (andAllLater ? " and later" : ""));
-      const auto filter = newPrepared();
+      const vtkSmartPointer<TFilter> filter = newPrepared();
       const auto errors = watchErrors(filter);
       failingallocator::failAt(n, andAllLater);
       filter->Update();
@@ -46,7 +48,7 @@ void failEach(vtkDataObject* input, const std::function<void(TFilter*)>& prepare
       if (errors->All.empty())
       {
         // No allocation failed, or only one of what would speed a later update up.
-        ASSERT_EQ(everythingOf(filter->GetOutputDataObject(0)), expected);
+        ASSERT_EQ(numbersOf(filter->GetOutputDataObject(0)), expected);
         ASSERT_EQ(filter->GetErrorCode(), 0u);
       }
       else
@@ -58,10 +60,44 @@ void failEach(vtkDataObject* input, const std::function<void(TFilter*)>& prepare
         ASSERT_EQ(filter->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::POINT), 0);
       }
       filter->Modified();
-      ASSERT_EQ(everythingOfUpdate(filter), expected);
+      ASSERT_EQ(numbersOfUpdate(filter), expected);
     }
   }
-  EXPECT_GT(failures, 20);
+  EXPECT_GT(failures, fewest);
+}
+
+/// The same for a filter of isosurfaces.
+/// @param prepare sets a filter up, ready to be updated
+template <class TFilter>
+void failEach(vtkDataObject* input, const std::function<void(TFilter*)>& prepare)
+{
+  failEach<TFilter>(
+    [&]()
+    {
+      const auto filter = newFilter<TFilter>(input);
+      filter->SetValue(1, 0.5);
+      prepare(filter);
+      return filter;
+    },
+    everythingOf, 20);
+}
+
+/// The numbers of all arrays of the points, of all blocks, NaN as infinity.
+std::vector<double> arraysOf(vtkDataObject* output)
+{
+  std::vector<double> numbers;
+  for (vtkDataObject* const leaf : leavesOf(output))
+  {
+    vtkDataSetAttributes* const points = leaf->GetAttributes(vtkDataObject::POINT);
+    for (int i = 0; i < points->GetNumberOfArrays(); ++i)
+    {
+      for (const double number : numbersOf(points->GetArray(i)))
+      {
+        numbers.push_back(std::isnan(number) ? infinity : number);
+      }
+    }
+  }
+  return numbers;
 }
 
 } // namespace
@@ -136,4 +172,47 @@ TEST(OutOfMemory, TrianglesOfATetrahedralizationOfAllSamples)
       filter->SetNumberOfContours(1);
       filter->SetValue(0, 0.01);
     });
+}
+
+TEST(OutOfMemory, ValuesAtPlaces)
+{
+  const auto samples = blocksOf({ newCloud(800), newCloud(700) });
+  const auto places = blocksOf({ newCloud(700), newCloud(800) });
+  failEach<vtkScatteredProbeFilter>(
+    [&]()
+    {
+      auto filter = vtkSmartPointer<vtkScatteredProbeFilter>::New();
+      filter->SetInputData(places);
+      filter->SetSourceData(samples);
+      filter->MarkBlankPointsAndCellsOn();
+      return filter;
+    },
+    arraysOf, 10);
+  failEach<vtkScatteredGradientFilter>(
+    [&]()
+    {
+      auto filter = vtkSmartPointer<vtkScatteredGradientFilter>::New();
+      filter->SetInputData(samples);
+      filter->SetInputArrayToProcess(0, 0, 0, ofPoints, "position");
+      filter->ComputeVorticityOn();
+      return filter;
+    },
+    arraysOf, 10);
+  failEach<vtkScatteredGridFilter>(
+    [&]()
+    {
+      auto filter = vtkSmartPointer<vtkScatteredGridFilter>::New();
+      filter->SetInputData(samples);
+      filter->SetSamplingDimensions(10, 10, 10);
+      return filter;
+    },
+    arraysOf, 10);
+  failEach<vtkScatteredLineFilter>(
+    [&]()
+    {
+      auto filter = vtkSmartPointer<vtkScatteredLineFilter>::New();
+      filter->SetInputData(samples);
+      return filter;
+    },
+    arraysOf, 10);
 }

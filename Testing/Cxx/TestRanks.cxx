@@ -20,6 +20,12 @@ Request triangles(double isovalue, std::optional<FitOrder> order = std::nullopt,
   return clouds::withTriangles(withSplats(requestOf(isovalue, order, dropsGaps)), regularizes);
 }
 
+Request keepingHullSlivers(Request request)
+{
+  request.isosurface.keepsHullSlivers = true;
+  return request;
+}
+
 Request partingCreases(Request request)
 {
   request.isosurface.duplicatesCreaseVertices = true;
@@ -124,6 +130,7 @@ TEST(Ranks, YieldTheTrianglesOfOneRank)
 {
   expectSameAsOneRank(ranks::variousClouds(), { 2, 3, 5 }, { Deal::RoundRobin },
     { triangles(0.3), triangles(-0.4, std::nullopt, true), triangles(0.5, FitOrder::Cubic),
+      keepingHullSlivers(triangles(-0.4, std::nullopt, true)),
       triangles(0.5, FitOrder::Cubic, true, true), triangles(99.0) });
   expectSameAsOneRank({ clouds::uniform(4000, 12) }, { 3 }, ranks::allDeals,
     { triangles(0.3), triangles(-0.2, FitOrder::Cubic, true),
@@ -187,6 +194,7 @@ TEST(Ranks, YieldTheRandomResultsOfOneRank)
       requests.insert(requests.end(), { triangles(isovalue, FitOrder::Cubic), crease,
                                         triangles(isovalue, std::nullopt, dice(2) == 0),
                                         triangles(isovalue, FitOrder::Cubic, false, true),
+                                        keepingHullSlivers(triangles(isovalue, std::nullopt, true)),
                                         triangles(isovalue, std::nullopt, dice(2) == 0, true) });
     }
     const std::size_t threads = 1 + dice(2);

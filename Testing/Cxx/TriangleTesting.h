@@ -152,14 +152,14 @@ public:
   }
 
   /// Those in gaps, ordered.
-  std::vector<Corners> inGaps(double isovalue)
+  std::vector<Corners> inGaps(double isovalue, bool keepsHullSlivers = false)
   {
     const isopoint::IsosurfaceRequest request{ isovalue };
     Extraction extraction(this->Exec, this->Tree, this->Rank, this->None, this->Band, request);
     const auto all = extraction.tetrahedra(this->Exec);
     const std::vector<char> areInGaps =
       isopoint::GapTetrahedraFinder<TSample, isopoint::SingleRank<TSample>>(
-        this->Exec, this->Tree, this->Rank, all)
+        this->Exec, this->Tree, this->Rank, all, keepsHullSlivers)
         .find();
     std::decay_t<decltype(all)> tetrahedra;
     for (std::size_t i = 0; i < all.size(); ++i)

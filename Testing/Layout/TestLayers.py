@@ -16,7 +16,7 @@ CORE_FOLDERS = {
     "Tetrahedra": "Base Tree Neighbors Fit Extraction", "Triangles": "Base Tree Neighbors Fit Extraction Tetrahedra",
     "Ranks": "Base Tree Neighbors Fit Extraction Splat Tetrahedra Triangles"}
 # Each folder with sources, and the headers of the project that they may include besides its own.
-FROM_FILTERS = ("Common/*.h", "Core/*.h", "Core/Base/*.h", "Core/Ranks/ByteBuffer.h")
+FROM_FILTERS = ("Common/*.h", "Core/*.h", "Core/Base/*.h", "Core/Places/ProbeRequest.h", "Core/Ranks/ByteBuffer.h")
 FOLDERS = {
     "Filters": ("Filters/Update/*.h", "Filters/Output/*.h", "Filters/Input/*.h"),
     "Filters/Update": ("Filters/Output/*.h", "Filters/Input/*.h", *FROM_FILTERS),

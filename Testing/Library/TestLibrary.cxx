@@ -248,6 +248,59 @@ TEST(Library, ExtractsASphere)
   }
 }
 
+// The recipe of isopoint.h.
+TEST(Library, SlicesABlock)
+{
+  Cloud cloud(20000);
+  const std::vector<double> distances = cloud.values;
+  for (std::size_t i = 0; i < cloud.values.size(); ++i)
+  {
+    cloud.values[i] = cloud.positions[3 * i];
+  }
+  const Extractor extractor(cloud);
+  const auto sliced = [&](std::int32_t keepsHullSlivers)
+  {
+    isopoint_options options = withTriangles;
+    options.projection = ISOPOINT_PROJECTION_NONE;
+    options.compute_normals = 0;
+    options.keep_hull_slivers = keepsHullSlivers;
+    return extractor.extract({ 0.3 }, options);
+  };
+  const auto areaOf = [](const Surface& surface)
+  {
+    const auto points = numbersOf<double>(surface, ISOPOINT_POINTS);
+    const auto corners = numbersOf<std::int64_t>(surface, ISOPOINT_TRIANGLES);
+    const auto at = [&](std::size_t corner, std::size_t axis)
+    { return points[3 * static_cast<std::size_t>(corners[corner]) + axis]; };
+    double area = 0.0;
+    for (std::size_t i = 0; i < corners.size(); i += 3)
+    {
+      area += 0.5 * std::abs((at(i + 1, 1) - at(i, 1)) * (at(i + 2, 2) - at(i, 2)) -
+                             (at(i + 1, 2) - at(i, 2)) * (at(i + 2, 1) - at(i, 1)));
+    }
+    return area;
+  };
+  const Surface slice = sliced(1);
+  EXPECT_NEAR(areaOf(slice), 4.0, 0.04);
+  EXPECT_LT(areaOf(sliced(0)), 3.96); // the rim is frayed
+  const isopoint_array points = arrayOf(slice, ISOPOINT_POINTS);
+  const isopoint_array array = arrayOf(distances, ISOPOINT_DOUBLE, 1);
+  std::vector<double> fitted(static_cast<std::size_t>(points.count));
+  const isopoint_probed result{ fitted.data(), nullptr };
+  isopoint_probe_options options;
+  isopoint_initialize_probe_options(&options, sizeof(options));
+  options.outside = ISOPOINT_OUTSIDE_EXTRAPOLATE;
+  ASSERT_EQ(
+    isopoint_probe(extractor.get(), &points, &array, 1, &options, &result, nullptr), ISOPOINT_OK);
+  const auto places = numbersOf<double>(slice, ISOPOINT_POINTS);
+  for (std::size_t i = 0; i < fitted.size(); ++i)
+  {
+    EXPECT_NEAR(places[3 * i], 0.3, 1e-14);
+    const double distance = std::hypot(places[3 * i], places[3 * i + 1], places[3 * i + 2]);
+    EXPECT_NEAR(fitted[i], distance, 0.01);
+  }
+}
+
 TEST(Library, ResultsDependOnNeitherThreadsNorWhatWasExtractedBefore)
 {
   const Cloud cloud;
@@ -435,7 +488,7 @@ TEST(Library, InvalidOptionsAreErrors)
   expectInvalidOptions([](auto& o) { o.number_of_neighbors = 2; }, "number_of_neighbors is 2");
   expectInvalidOptions([](auto& o) { o.angle = std::nan(""); }, "angle is nan");
   expectInvalidOptions([](auto& o) { o.projection = 5; }, "projection is 5");
-  for (const std::uint64_t size : { 0, 7, 8, 9, 40, 71, 73, 80, 1000 })
+  for (const std::uint64_t size : { 0, 7, 8, 9, 40, 72, 79, 81, 88, 1000 })
   {
     expectInvalidOptions([size](auto& o) { o.size = size; }, "isopoint_initialize_options()");
   }
@@ -445,6 +498,7 @@ TEST(Library, InvalidOptionsAreErrors)
     expectInvalidOptions([value](auto& o) { o.triangles = value; }, word);
     expectInvalidOptions([value](auto& o) { o.keep_tetrahedra = value; }, word);
     expectInvalidOptions([value](auto& o) { o.regularize = value; }, word);
+    expectInvalidOptions([value](auto& o) { o.keep_hull_slivers = value; }, word);
   }
   // No more is written than the caller has.
   std::array<unsigned char, sizeof(isopoint_options)> bytes;

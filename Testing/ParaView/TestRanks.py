@@ -19,7 +19,9 @@ from vtkmodules.vtkCommonCore import vtkStringArray, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkDataSetAttributes, vtkImageData, vtkPolyData
 from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
-from scatteredisopoints import vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
+from scatteredisopoints import (
+    vtkScatteredGradientFilter, vtkScatteredGridFilter, vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter,
+    vtkScatteredLineFilter, vtkScatteredProbeFilter)
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../Python"))
 from vtk_data import blocks_of, centers_in, cloud_of, named, set_all  # noqa: E402
@@ -229,6 +231,66 @@ class RanksTest(RanksTestCase):
                 data.Modified()
             run(isopoints, (0.3,))
             self.same(isopoints.GetOutput(), lambda: contour(whole, None, kind).GetOutput())
+
+    def same_arrays(self, output, expected, rows=slice(None)):
+        """Compares each rank's arrays with its own expectation, reports on rank 0."""
+        found, wanted = ({data.GetArrayName(i): vtk_to_numpy(data.GetArray(i))[chosen].tobytes()
+                          for i in range(data.GetNumberOfArrays()) if data.GetArray(i)}
+                         for data, chosen in ((output.GetPointData(), slice(None)), (expected.GetPointData(), rows)))
+        all_same = gather((found == wanted, sorted(found)))
+        if RANK == 0:
+            self.assertTrue(all(same for same, _ in all_same), all_same)
+
+    def test_values_at_places(self):
+        """Each rank has its own samples, or none, and its own places, or none."""
+        points = uniform(3000, 8)
+        for chosen in (owners(len(points)), np.full(len(points), SIZE - 1)):
+            numbers = np.arange(len(points))
+            mine = chosen == RANK
+            data, whole = poly_data(points[mine], numbers[mine]), poly_data(points, numbers)
+            places = cloud_of(1.2 * uniform(0 if RANK == 1 else 500, RANK) - 0.1)
+            for options in (dict(), dict(Interpolation=4, NullPointsStrategy=2), dict(Interpolation=1)):
+                here, alone = (set_all(vtkScatteredProbeFilter(), InputData=places, SourceData=source,
+                                       Controller=controller, **options)
+                               for source, controller in ((data, RANKS), (whole, None)))
+                here.UpdatePiece(RANK, SIZE, 0)
+                alone.Update()
+                self.same_arrays(here.GetOutput(), alone.GetOutput())
+                self.assertEqual(here.GetNumberOfSamples(), 3000)
+            here, alone = (set_all(vtkScatteredGradientFilter(), InputData=source, Controller=controller)
+                           for source, controller in ((data, RANKS), (whole, None)))
+            for each in (here, alone):
+                each.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS, "vector")
+                each.ComputeVorticityOn()
+            here.UpdatePiece(RANK, SIZE, 0)
+            alone.Update()
+            self.same_arrays(here.GetOutput(), alone.GetOutput(), mine) if mine.any() else gather((True, []))
+            here, alone = (set_all(vtkScatteredLineFilter(), InputData=source, Controller=controller, Resolution=50)
+                           for source, controller in ((data, RANKS), (whole, None)))
+            here.UpdatePiece(RANK, SIZE, 0)
+            alone.Update()
+            self.same_arrays(here.GetOutput(), alone.GetOutput(), slice(None if RANK == 0 else 0))
+            here, alone = (set_all(vtkScatteredGridFilter(), InputData=source, Controller=controller)
+                           for source, controller in ((data, RANKS), (whole, None)))
+            for each in (here, alone):
+                each.SetSamplingDimensions(8, 9, 10)
+            here.UpdatePiece(RANK, SIZE, 0)
+            alone.Update()
+            output, image = here.GetOutput(), alone.GetOutput()
+            rows = [image.FindPoint(output.GetPoint(i)) for i in range(output.GetNumberOfPoints())]
+            self.same_arrays(output, image, rows)
+
+    @unittest.skipIf(SIZE == 1, "one rank has one set of options")
+    def test_different_options_for_places_are_an_error(self):
+        errors = []
+        probe = set_all(vtkScatteredProbeFilter(), InputData=cloud_of(uniform(5, 1)), SourceData=cloud_of(
+            uniform(100, RANK)), Controller=RANKS, Interpolation=RANK)
+        watched(probe, errors.append)
+        probe.UpdatePiece(RANK, SIZE, 0)
+        counts = gather((len(errors), probe.GetErrorCode(), probe.GetOutput().GetNumberOfPoints()))
+        if RANK == 0:
+            self.assertEqual(counts, [(1, errno.EINVAL, 0)] + (SIZE - 1) * [(0, errno.EINVAL, 0)])
+            self.assertIn("or probe each rank's samples separately", errors[0])
 
     def test_blocks_and_cells(self):
         """The cells of several images on each rank form one cloud."""

@@ -85,20 +85,34 @@ def help_is_at_labels():
 
 
 def search_finds_each_filter_once():
-    """By words of its name, and by "contour"."""
-    for words, both in (("scattered", NAMES),
+    """By words of its name, and by those of ParaView's filters for meshes."""
+    for words, both in (("scattered iso", NAMES),
                         ("contour samples", ("Contour samples as points", "Contour samples as triangles"))):
         for typed, found, name in ((words, both, NAMES[0]), (both[1], both[1:], NAMES[1])):
             shown, _ = play([*search(PARAVIEW, typed, *found), APPLY], WAVELET)
             check(name.replace(" ", "") + ("2" if name == NAMES[0] else "1") in shown, f"{name} was created")
+    for words, found, name in (
+            ("resample samples", ("Resample samples to an image", "Resample samples with a data set"), "Scattered Grid"),
+            ("scattered gradient", ("Scattered Gradient",), "Scattered Gradient")):
+        shown, _ = play([*search(PARAVIEW, words, *found), APPLY], WAVELET)
+        check(any(each.startswith(name.replace(" ", "")) for each in shown), f"{name} was created: {shown}")
+    play([*search(PARAVIEW, "plot samples", "Plot samples over a line"), APPLY], WAVELET)  # in a view of its own
 
 
-def an_empty_slice_is_explained():
-    """One message names the filter to slice instead. A slice of a grid causes no message."""
-    for more, count in (("", 1), (WAVELET, 0)):
-        _, said = play([choose("Slice"), APPLY], more)
-        explained = others_of(said).count("Scattered Isosurface")
-        check(explained == count, f"explained {explained} times instead of {count}")
+def an_empty_result_is_explained():
+    """One message names the filter to use instead. From a grid there is no message."""
+    points = """
+isopoints = simple.Calculator(Input=simple.PointSource(NumberOfPoints=500), Function="coordsX", ResultArrayName="x")
+isopoints.UpdatePipeline()
+"""
+    for name, more, remedy, count in (
+            ("Slice", "", "Scattered Isosurface", 1), ("Slice", WAVELET, "", 0),
+            ("Slice", points, "Scattered Probe", 1), ("Gradient", points, "Scattered Gradient", 1),
+            ("Plot Over Line", points, "Scattered Line", 1), ("Resample To Image", points, "Scattered Grid", 1),
+            ("Gradient", WAVELET, "", 0)):
+        _, said = play([choose(name), APPLY], more)
+        explained = [line for line in others_of(said).splitlines() if "yields nothing" in line]
+        check(len(explained) == count and all(remedy in line for line in explained), f"{name}: explained by {explained}")
 
 
 def empty_results_keep_splats():
@@ -214,5 +228,5 @@ print("found:", str(display.Representation).strip("'"), display.SplatRadiusScale
 
 
 run(inputs_are_hidden, rows_follow_others, counters_are_texts, help_is_at_labels, search_finds_each_filter_once,
-    an_empty_slice_is_explained, empty_results_keep_splats, negative_sizes_are_explained, isovalues_follow_the_array,
+    an_empty_result_is_explained, empty_results_keep_splats, negative_sizes_are_explained, isovalues_follow_the_array,
     selected_points_keep_their_shapes, a_trace_runs_elsewhere, pictures_are_traced)

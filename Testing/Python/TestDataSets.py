@@ -8,14 +8,16 @@ import unittest
 import warnings
 
 import numpy as np
-from scatteredisopoints import Samples, contour, contouring
+from scatteredisopoints import Samples, contour, contouring, slice_samples
 from vtk_data import amr_of, assert_same, blocks_of, centers_in, cloud_of, named, points_of, positions_in, set_all
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkBitArray, vtkMath
 from vtkmodules.vtkCommonDataModel import (
-    VTK_EMPTY_CELL, VTK_TETRA, vtkAMRUtilities, vtkCellArray, vtkHyperTreeGrid, vtkImageData, vtkMultiBlockDataSet,
-    vtkPartitionedDataSet, vtkPartitionedDataSetCollection, vtkPolyData, vtkRectilinearGrid, vtkStructuredGrid,
-    vtkTable, vtkUnstructuredGrid)
+    VTK_EMPTY_CELL, VTK_TETRA, vtkAMRUtilities, vtkCellArray, vtkCylinder, vtkHyperTreeGrid, vtkImageData,
+    vtkMultiBlockDataSet, vtkPartitionedDataSet, vtkPartitionedDataSetCollection, vtkPlane, vtkPolyData,
+    vtkRectilinearGrid, vtkStructuredGrid, vtkTable, vtkUnstructuredGrid)
+from vtkmodules.vtkCommonTransforms import vtkTransform
+from vtkmodules.vtkFiltersCore import vtkCutter, vtkDelaunay3D
 
 RANDOM = np.random.default_rng(1)
 
@@ -267,6 +269,61 @@ class DataSetsTest(unittest.TestCase):
                 Samples(*arguments)
         with self.assertRaisesRegex(TypeError, "add them to the data set"):
             Samples(data, "distance").contour(0.3, arrays={"other": np.zeros(3000)})
+
+class Slices(unittest.TestCase):
+    def test_linear_slices_are_those_of_the_delaunay_tetrahedralization(self):
+        """The vertices and, up to diagonals, the polygons of vtkCutter."""
+        for seed in range(50):
+            random = np.random.default_rng(seed)
+            positions, plane = random.random((150, 3)), vtkPlane()
+            plane.SetNormal(random.normal(size=3))
+            plane.SetOrigin(0.5, 0.5, 0.5)
+            data = cloud_of(positions)
+            data.GetPointData().AddArray(named("sum", positions @ [1, 2, 3]))
+            tetrahedra = set_all(vtkDelaunay3D(), InputData=data, Tolerance=0, Offset=1e5)
+            cutter = set_all(vtkCutter(), InputConnection=tetrahedra.GetOutputPort(), CutFunction=plane,
+                             GenerateTriangles=False, OutputPointsPrecision=1)
+            cutter.Update()
+            expected = cutter.GetOutput()
+            sliced = slice_samples(data, "sum", function=plane, interpolation="linear", drop_gaps=False,
+                                   regularize=False)
+            distances = np.linalg.norm(positions_in(expected)[:, None] - sliced.points, axis=2)
+            vertices = distances.argmin(axis=1)
+            self.assertEqual(sorted(vertices), list(range(len(sliced))))
+            self.assertLess(distances.min(axis=1).max(), 1e-12)
+            np.testing.assert_allclose(sliced.arrays["sum"], sliced.points @ [1, 2, 3])
+            triangles = set(map(frozenset, sliced.triangles.tolist()))
+            for i in range(expected.GetNumberOfCells()):
+                cell = expected.GetCell(i).GetPointIds()
+                a, b, c, *d = (vertices[cell.GetId(k)] for k in range(cell.GetNumberOfIds()))
+                cuts = [{frozenset((a, b, c)), *(frozenset((a, c, each)) for each in d)},
+                        {frozenset((a, b, *d)), frozenset((b, c, *d))}]
+                found = [cut for cut in cuts if cut <= triangles]
+                self.assertEqual(len(found), 1)
+                triangles -= found[0]
+            self.assertEqual(triangles, set())
+
+    def test_functions_of_vtk(self):
+        data = cloud(20000, np.float32)
+        turned = vtkTransform()
+        turned.RotateX(30)
+        for transform in (None, turned):
+            cylinder = set_all(vtkCylinder(), Center=(0.5, 0.5, 0.5), Radius=0.3, Transform=transform)
+            sliced = slice_samples(data, function=cylinder)
+            self.assertGreater(len(sliced), 300)
+            self.assertLess(max(abs(cylinder.FunctionValue(point)) for point in sliced.points.tolist()), 1e-6)
+            plane = set_all(vtkPlane(), Origin=(0.2, 0.4, 0.6), Normal=(0, 0, 1), Transform=transform)
+            sliced = slice_samples(data, function=plane, offsets=0.05)
+            self.assertLess(max(abs(plane.FunctionValue(point) - 0.05) for point in sliced.points.tolist()), 1e-6)
+
+    def test_all_arrays_of_points_or_cells(self):
+        data, _ = prepared(image())
+        sliced = slice_samples(data, normal=(1, 2, 3))
+        self.assertEqual(set(sliced.arrays), {"distance", "place", "count", "ids"})
+        self.assertEqual(sliced.polydata.GetPointData().GetPedigreeIds().GetName(), "ids")
+        np.testing.assert_allclose(sliced.arrays["place"], sliced.points, atol=1e-9)
+        self.assertEqual(set(slice_samples(data, ["place"]).arrays), {"place"})
+        self.assertEqual(set(Samples(data, "distance").slice("y").arrays), set(sliced.arrays))
 
 
 if __name__ == "__main__":

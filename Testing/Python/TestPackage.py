@@ -699,8 +699,8 @@ class Imports(unittest.TestCase):
     def test_names(self):
         self.assertRegex(scatteredisopoints.__version__, r"^\d+\.\d+\.\d+$")
         names = set(scatteredisopoints.__all__)
-        self.assertLessEqual({"contour", "probe", "gradient", "Samples", "Interpolator", "Isosurface", "load_plugin"},
-                             names)
+        self.assertLessEqual({"contour", "probe", "gradient", "slice_samples", "Samples", "Interpolator", "Isosurface",
+                              "load_plugin"}, names)
         self.assertLessEqual(names, set(dir(scatteredisopoints)))
         imported = {}
         exec("from scatteredisopoints import *", imported)

@@ -61,6 +61,12 @@ class Values(unittest.TestCase):
             found = probe(POSITIONS, array, PLACES, method="nearest")
             self.assertEqual(found.dtype, array.dtype.newbyteorder("="))
             np.testing.assert_array_equal(found, array[nearest])
+        masked = [np.ma.masked_equal(np.arange(len(POSITIONS), dtype=kind), 0) for kind in ("i2", "i4")]
+        for array, expected in ((array > 9, "u1"), (array.astype("f2"), "f4"), (array.astype("g"), "f8"),
+                                (masked[0], "f4"), (masked[1], "f8")):
+            with self.subTest(expected), warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # of the masked entry
+                self.assertEqual(probe(POSITIONS, array, PLACES, method="NEAREST").dtype, expected)
 
     def test_shapes_and_types(self):
         count, places = len(POSITIONS), len(PLACES)
@@ -111,13 +117,21 @@ class Outside(unittest.TestCase):
         values, is_there = np.sin(POSITIONS[:, 0]), np.arange(len(POSITIONS)) % 3 > 0
         expected = probe(POSITIONS[is_there], values[is_there], PLACES)
         for lacking in (np.where(is_there, values, np.nan), np.ma.masked_array(values, ~is_there)):
-            found = probe(POSITIONS, {"lacking": lacking, "all": values}, PLACES)
+            with self.assertWarnsRegex(RuntimeWarning, '^2000 of 6000 entries of "lacking" are masked') as caught:
+                found = probe(POSITIONS, {"lacking": lacking, "all": values}, PLACES)
+            self.assertEqual((len(caught.warnings), caught.filename), (1, __file__))
+            with self.assertWarnsRegex(RuntimeWarning, "2000 of 6000 entries") as caught:
+                function = Samples(POSITIONS).interpolator(lacking)
+            self.assertEqual(caught.filename, __file__)
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                np.testing.assert_array_equal(function(PLACES), found["lacking"])
             np.testing.assert_allclose(found["lacking"], np.sin(PLACES[:, 0]), atol=1e-3)
             np.testing.assert_array_equal(found["all"], probe(POSITIONS, values, PLACES))
         samples = Samples(POSITIONS, lacking)
         with self.assertWarnsRegex(RuntimeWarning, "2000 of 6000 samples are left out") as caught:
             np.testing.assert_allclose(samples.probe(PLACES), expected, atol=1e-12)
-        self.assertEqual(caught.filename, __file__)
+        self.assertEqual((len(caught.warnings), caught.filename), (1, __file__))
 
     def test_samples_in_a_plane(self):
         flat = POSITIONS * [1, 1, 0]
@@ -126,8 +140,16 @@ class Outside(unittest.TestCase):
         self.assertEqual(caught.filename, __file__)
         np.testing.assert_allclose(values, PLACES @ [1, 2, 0], atol=1e-12)
         np.testing.assert_allclose(gradients, np.tile([1, 2, 0], (300, 1)), atol=1e-10)
+        with self.assertWarnsRegex(RuntimeWarning, "At 6000 of 6000 places") as caught:
+            np.testing.assert_allclose(gradient(flat, flat @ [1, 2, 3]), np.tile([1, 2, 0], (6000, 1)), atol=1e-6)
+        self.assertEqual(caught.filename, __file__)
         with self.assertWarns(RuntimeWarning):
             self.assertEqual(probe([[1, 2, 3]], [7], [[1, 2, 3]]), 7)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")  # there is nothing to say about places outside
+            self.assertTrue(np.isnan(probe(flat, flat, [[9, 9, 9]])).all())
+        with self.assertWarnsRegex(RuntimeWarning, "At 1 of 2 places"):
+            probe(flat, flat, [[9, 9, 9], flat[0]], outside="nearest")
 
 
 class KeptSamples(unittest.TestCase):
@@ -161,8 +183,15 @@ class KeptSamples(unittest.TestCase):
         np.testing.assert_allclose(place(np.stack(grid, axis=-1)), np.stack(grid, axis=-1))
         self.assertEqual(place.gradient(np.zeros((2, 5, 3))).shape, (2, 5, 3, 3))
         self.assertEqual(place([9, 9, 9]).tolist(), [0, 0, 0])
-        with self.assertRaisesRegex(ValueError, r"\(5, 2\), not \(..., 3\)"):
-            plane(np.zeros((5, 2)))
+        masked = np.ma.masked_greater([0.1, 0.9], 0.5)
+        for places in ((0.1, 0.2, masked), (np.ma.stack([masked, masked, masked], axis=-1),)):
+            self.assertEqual(np.isnan(plane(*places)).tolist(), [False, True])
+        for places, error, text in (((np.zeros((5, 2)),), ValueError, r"\(5, 2\), not \(..., 3\)"),
+                                    ((), TypeError, "places, .* or x, y and z: not 0 arg"),
+                                    ((1, 2), TypeError, "or x, y and z: not 2 arguments"),
+                                    (("here",), TypeError, "not real numbers")):
+            with self.subTest(text), self.assertRaisesRegex(error, text):
+                plane(*places)
         for arguments, error in ((dict(array={"a": POSITIONS}), TypeError), (dict(method="LINEAR"), ValueError),
                                  (dict(array="T"), ValueError)):
             with self.assertRaises(error):
@@ -178,6 +207,8 @@ class Calls(unittest.TestCase):
                 ((POSITIONS, values[:9], PLACES), ValueError, r"values.*\(9,\).*6000"),
                 ((POSITIONS, {"a": values, "b": values[:9]}, PLACES), ValueError, r"b have.*\(9,\)"),
                 ((POSITIONS, None, PLACES), TypeError, "values are missing"),
+                ((POSITIONS, values, None), TypeError, "places cannot be None: give numbers"),
+                ((POSITIONS, 7 * [None], PLACES), TypeError, "values are of the type object"),
                 ((POSITIONS, [], PLACES), ValueError, r"\(0,\)"),
                 ((POSITIONS, "T", PLACES), ValueError, '"T": give its numbers'),
                 ((POSITIONS, 1j * values, PLACES), TypeError, "complex"),
@@ -187,6 +218,7 @@ class Calls(unittest.TestCase):
         for options, text in (
                 (dict(method="CUBIG"), "BLEND, CUBIC"), (dict(method=None), "BLEND, CUBIC"), (dict(method=9), "0 to 4"),
                 (dict(outside="far"), '"nearest", or None'), (dict(outside=True), "a number"),
+                (dict(outside=10**400), "outside is out of range: .*1.8e308"),
                 (dict(threads=0), "threads"), (dict(gradient="yes"), "True or False"),
                 (dict(method="NEAREST", gradient=True), "no gradients")):
             with self.subTest(text), self.assertRaisesRegex(ValueError, text):

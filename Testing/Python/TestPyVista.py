@@ -9,7 +9,7 @@ from unittest import mock
 
 import numpy as np
 import pyvista as pv
-from scatteredisopoints import Samples, _pyvista, contour, gradient, probe
+from scatteredisopoints import Samples, _pyvista, contour, gradient, probe, slice_samples
 
 
 def cloud(count=20000):
@@ -248,10 +248,81 @@ class Probing(unittest.TestCase):
                                       data.scattered.probe(inside, "plane")["plane"])
         self.assertEqual(data.scattered.probe(inside, "number", method="NEAREST")["number"].dtype, np.int32)
         self.assertTrue(np.isnan(data.scattered.probe([[9, 9, 9]], "plane")["plane"][0]))
-        self.assertEqual(data.scattered.probe(np.zeros((0, 3)), gradient=True).n_points, 0)
+        nothing = data.scattered.probe(np.zeros((0, 3)), "place", gradient=True)
+        self.assertEqual({name: nothing[name].shape for name in nothing.array_names},
+                         {"place": (0, 3), "place_gradient": (0, 9)})
         np.testing.assert_array_equal(probe(data, "plane", image), data.scattered.probe(image, "plane")["plane"])
         self.assertEqual(gradient(data, ["place"])["place"].shape, (5000, 3, 3))
         self.assertAlmostEqual(float(Samples(data, "plane").interpolator("place")(0.4, 0.5, 0.6)[2]), 0.6, places=6)
+
+    def test_a_data_set_at_its_own_points(self):
+        data = pv.ImageData(dimensions=(12, 12, 12), spacing=(0.1, 0.1, 0.1), origin=(0.3, 0.7, 0.9))
+        data["x"] = data.points[:, 0]
+        data = data.rotate_z(30).rotate_x(17)
+        self.assertTrue(np.isfinite(data.scattered.probe(data, "x")["x"]).all())
+
+    def test_blocks_with_different_arrays(self):
+        data, other = self.cloud(), self.cloud()
+        other.points[:, 0] += 1
+        other.point_data.remove("number")
+        other["plane"], other["own"] = other["plane"].astype("f4"), other["plane"]
+        blocks, where = pv.MultiBlock([data, other]), np.array([[0.5, 0.5, 0.5], [1.5, 0.5, 0.5]])
+        text = '^Left out are "plane", "number", "own": not all blocks have these arrays with the same type'
+        for call, expected in ((lambda: blocks.scattered.probe(where), {"place"}),
+                               (lambda: blocks.scattered.sample_over_line(*where, 5), {"place", "Distance"}),
+                               (lambda: blocks.scattered.slice("z"), {"place", "ids"}),
+                               (lambda: slice_samples(blocks, normal="z").polydata, {"place", "ids"})):
+            (message,), found = self.caught(call)
+            self.assertRegex(message, text)
+            self.assertEqual(set(found.array_names), expected)
+        self.assertEqual(self.caught(lambda: blocks.scattered.probe(where, "place"))[0], [])
+        both = pv.PartitionedDataSet([data, other])
+        self.assertEqual(both.scattered.to_grid(3, scalars="place").bounds, blocks.bounds)
+        np.testing.assert_allclose(both.scattered.slice("x", scalars="place").points[:, 0], blocks.center[0], atol=1e-6)
+        self.assertGreater(min(each.n_points for each in both.scattered.slice_orthogonal(scalars="place")), 100)
+        (message,), found = self.caught(lambda: blocks.scattered.probe(where, ["number", "plane"]))
+        self.assertRegex(message, "5000 points or cells are left out")
+        mixed = grid()
+        mixed["a"], mixed.cell_data["b"] = np.ones(mixed.n_points), np.ones(mixed.n_cells)
+        for source, names, text in (
+                (blocks, ["number", "own"], '^The arrays "number", "own" are in different blocks.* separate calls'),
+                (mixed, ["a", "b"], '^The arrays "a", "b" are in different blocks, or some are of points and others'),
+                (blocks, ["place", "speed", "own"], 'no point or cell array named "speed". Choose'),
+                (blocks, "plane", 'Left out are "plane": not all blocks .* Convert it'),
+                (pv.PolyData(data.points), None, "no point or cell array of numbers. There are no arrays")):
+            for call in (lambda: source.scattered.probe(where, names),
+                         lambda: probe(source, names, where) if names else source.scattered.probe(where)):
+                with self.subTest(text), self.assertRaisesRegex(ValueError, text):
+                    call()
+
+    def caught(self, call):
+        """Messages of warnings, all of this file, and a result."""
+        with warnings.catch_warnings(record=True) as caught:  # assertWarns() imports what cvista lacks
+            warnings.simplefilter("always")
+            found = call()
+        self.assertEqual({each.filename for each in caught} - {__file__}, set())
+        return [str(each.message) for each in caught], found
+
+    def test_arrays_of_equal_names(self):
+        data = self.cloud()
+        data["plane_gradient"], data["Distance"] = np.full(5000, 7.0), np.full(5000, 7.0)
+        inside = [[0.4, 0.5, 0.5], [0.6, 0.5, 0.5]]
+        names = ["plane", "plane_gradient"]
+        (message,), found = self.caught(lambda: data.scattered.probe(inside, names, gradient=True))
+        self.assertRegex(message, '^The computed array "plane_gradient" replaces the array of this name: rename that')
+        self.assertEqual(found["plane_gradient"].shape, (2, 3))
+        (message,), found = self.caught(lambda: data.scattered.sample_over_line(*inside, 1))
+        self.assertRegex(message, '"Distance" replaces')
+        np.testing.assert_allclose(found["Distance"], [0, 0.2])
+        (message,), found = self.caught(lambda: data.scattered.compute_derivative("plane", gradient="plane"))
+        self.assertRegex(message, '"plane" replaces')
+        self.assertEqual(found["plane"].shape, (5000, 3))
+        self.assertEqual(self.caught(lambda: data.scattered.sample_over_line(*inside, 1, "plane"))[0], [])
+        for names, text in ((dict(gradient="x", divergence="x"), 'gradient and divergence .* named "x"'),
+                            (dict(divergence="gradient"), 'gradient and divergence .* named "gradient"'),
+                            (dict(gradient=""), 'gradient cannot be "": give'), (dict(vorticity=2), "vorticity")):
+            with self.subTest(text), self.assertRaisesRegex(ValueError, text):
+                data.scattered.compute_derivative("place", **names)
 
     def test_cells_ghosts_and_composites(self):
         data = grid()
@@ -264,15 +335,16 @@ class Probing(unittest.TestCase):
         self.assertEqual(set(data.scattered.probe(where, preference="cell").array_names), {"of cells", "plane"})
         blocks = pv.MultiBlock([data.extract_subset((0, 15, 0, 30, 0, 31)), data.extract_subset((15, 29, 0, 30, 0, 31)),
                                 cloud(10)])
-        with warnings.catch_warnings(record=True) as caught:  # assertWarns() imports what cvista lacks
-            warnings.simplefilter("always")
-            found = blocks.scattered.probe(where, "plane")
-        self.assertEqual([(each.filename, str(each.message)[:33]) for each in caught],
-                         [(__file__, "10 points or cells are left out: ")])
+        (message,), found = self.caught(lambda: blocks.scattered.probe(where, "plane"))
+        self.assertRegex(message, "^10 points or cells are left out: ")
         np.testing.assert_allclose(found["plane"], -self.plane(where))
         hidden = data.points[:, 0] > data.center[0] + 0.1
         data.point_data["plane"][hidden] = 1e9
         data.point_data["vtkGhostType"] = np.where(hidden, 2, 0).astype(np.uint8)
+        data.point_data["plane"][np.argmax(hidden)] = np.nan
+        self.assertEqual(self.caught(lambda: data.scattered.probe(where, "plane"))[0], [])
+        data.point_data["distance"][np.argmin(hidden)] = np.nan
+        self.assertRegex(self.caught(lambda: data.scattered.probe(where, "distance"))[0][0], '^1 of .* of "distance"')
         found = data.scattered.probe(where - np.array([0.45, 0, 0]), "plane")
         np.testing.assert_allclose(found["plane"], -self.plane(found.points), rtol=1e-6)
 
@@ -282,6 +354,12 @@ class Probing(unittest.TestCase):
         self.assertEqual(line.n_points, 101)
         self.assertAlmostEqual(line["Distance"].max(), 0.35**0.5, places=6)
         np.testing.assert_allclose(line["plane"], self.plane(line.points), atol=1e-6)
+        self.assertEqual(set(line.array_names), {"plane", "Distance"})
+        far = pv.PolyData(data.points + np.array([1e7, 0, 0]))
+        far["x"] = data.points[:, 0]
+        line = far.scattered.sample_over_line((1e7 + 0.2, 0.5, 0.5), (1e7 + 0.8, 0.5, 0.5), 50)
+        np.testing.assert_allclose(line["x"], np.linspace(0.2, 0.8, 51), atol=1e-6)
+        np.testing.assert_allclose(line["Distance"], np.linspace(0, 0.6, 51), atol=1e-8)
         bounds, box = (0.2, 0.8, 0.2, 0.8, 0.5, 0.5), np.reshape(data.bounds, (3, 2))
         for arguments, dimensions, spacing in (
                 (dict(dimensions=11), (11, 11, 11), np.ptp(box, axis=1) / 10),
@@ -296,13 +374,23 @@ class Probing(unittest.TestCase):
             self.assertGreater(inside.mean(), 0.25)
             np.testing.assert_allclose(found["plane"][inside], self.plane(found.points[inside]), atol=1e-6)
         self.assertAlmostEqual(data.scattered.to_grid((3, 4, 1), scalars="plane").origin[2], box[2].mean(), places=6)
-        for arguments, error in (({}, TypeError), (dict(dimensions=3, spacing=1), TypeError),
-                                 (dict(spacing=0), ValueError), (dict(dimensions=1.5), ValueError),
-                                 (dict(spacing="a"), ValueError), (dict(dimensions=(1, 2)), ValueError),
-                                 (dict(dimensions=3, methods="CUBIC"), TypeError),
-                                 (dict(dimensions=3, bounds=(1, 0, 0, 1, 0, 1)), ValueError)):
-            with self.assertRaisesRegex(error, "dimensions|spacing|bounds|did you mean method?"):
+        for arguments, error, text in (
+                ({}, TypeError, "either dimensions"), (dict(dimensions=3, spacing=1), TypeError, "either dimensions"),
+                *((dict(spacing=each), ValueError, "spacing") for each in (0, np.inf, "a")),
+                *((dict(dimensions=each), ValueError, "dimensions") for each in (1.5, (1, 2))),
+                (dict(spacing=1e-12), ValueError, "1e-12 would give 9.99e[+]35 points, .* 2147483647: choose a gr"),
+                (dict(dimensions=[10**10, 1, 1]), ValueError, "would give 1e[+]10 points, .* choose fewer"),
+                (dict(dimensions=3, methods="CUBIC"), TypeError, "did you mean method?"),
+                *((dict(dimensions=3, bounds=bounds), ValueError, "^bounds cannot be .*: give three ascending pairs")
+                  for bounds in ((1, 0, 0, 1, 0, 1), (0, np.inf, 0, 1, 0, 1), (0, 1, 0, 1, 0), "all"))):
+            with self.subTest(text), self.assertRaisesRegex(error, text):
                 data.scattered.to_grid(**arguments)
+        for arguments, text in ((((0.2, 0.5), (1, 1, 1)), "^pointa cannot be .* three finite numbers"),
+                                (((0, 0, 0), (1, 1, np.nan)), "^pointb cannot"),
+                                (((0, 0, 0), (1, 1, 1), 0), "^resolution cannot be 0: it is a whole number, 1 or more"),
+                                (((0, 0, 0), (1, 1, 1), 1.5), "^resolution cannot be 1.5")):
+            with self.subTest(text), self.assertRaisesRegex(ValueError, text):
+                data.scattered.sample_over_line(*arguments)
 
     def test_derivatives_are_those_of_vtk(self):
         """VTK's central differences are exact for fields of degree two on a grid, inside."""
@@ -319,8 +407,34 @@ class Probing(unittest.TestCase):
         self.assertNotIn("gradient", data.array_names)
         of_cells = data.scattered.compute_derivative("of cells", gradient="slope")
         self.assertEqual(of_cells.cell_data["slope"].shape, (data.n_cells, 3))
-        with self.assertRaisesRegex(ValueError, "divergence need an array of three components"):
-            data.scattered.compute_derivative("distance", divergence=True)
+        with self.assertRaisesRegex(ValueError, '^divergence and qcriterion cannot .* "distance" has 1 component:'):
+            data.scattered.compute_derivative("distance", divergence=True, qcriterion=True)
+
+    def test_slices_have_the_parameters_of_pyvista(self):
+        data = self.cloud()
+        data.points[:, 0] *= 2
+        data["place"], data["plane"] = data.points, self.plane(data.points)
+        sliced = data.scattered.slice()
+        self.assertIs(type(sliced), pv.PolyData)
+        self.assertTrue(sliced.is_all_triangles)
+        self.assertEqual(set(sliced.array_names), {"place", "plane", "number", "ids"})
+        np.testing.assert_allclose(sliced.points[:, 0], data.center[0], atol=1e-6)
+        np.testing.assert_allclose(sliced["plane"], self.plane(sliced.points), atol=1e-5)
+        self.assertEqual(data.scattered.slice("-z", (0, 0, 0.25), scalars="plane").array_names, ["plane"])
+        contoured = data.scattered.slice("z", contour=True, scalars="plane")
+        self.assertGreater(contoured.n_lines, 10)
+        slices = data.scattered.slice_orthogonal(x=1.5, interpolation="linear")
+        self.assertEqual(slices.keys(), ["YZ", "XZ", "XY"])
+        np.testing.assert_allclose(slices["YZ"].points[:, 0], 1.5, atol=1e-6)
+        np.testing.assert_allclose(slices["XY"].points[:, 2], data.center[2], atol=1e-6)
+        ball = data.scattered.slice_implicit(lambda points: np.linalg.norm(points - data.center, axis=1) - 0.3)
+        self.assertTrue(ball.is_manifold)
+        for call, error in ((lambda: data.scattered.slice(plane=pv.Plane()), TypeError),
+                            (lambda: data.scattered.slice(offset=1), TypeError),
+                            (lambda: data.scattered.slice(contour="all"), ValueError),
+                            (lambda: data.scattered.slice_implicit(None), TypeError)):
+            with self.assertRaises(error):
+                call()
 
     def test_samples_are_kept(self):
         data, inside = self.cloud(), [[0.5, 0.5, 0.5]]
@@ -339,6 +453,12 @@ class Probing(unittest.TestCase):
                 (lambda: data.scattered.probe([[0, 0, 0]], "plane", preference="both"), ValueError, "preference"),
                 (lambda: data.scattered.probe([[0, 0, 0]], np.zeros(7)), ValueError, "7 values for a data set"),
                 (lambda: data.scattered.probe(pv.MultiBlock([data])), TypeError, "pass its blocks"),
+                (lambda: data.scattered.probe(pv.Table({"a": np.ones(1)})), TypeError, r"no points .* shape \(n, 3\)"),
+                (lambda: probe(data, "plane", pv.MultiBlock([data])), TypeError, "no points of its own: pass its bl"),
+                (lambda: data.scattered.probe(pv.SphereSource()), TypeError, r"SphereSource.* give its GetOutput"),
+                (lambda: contour(pv.SphereSource(), "plane", 1), TypeError, r"call Update\(\) and give its GetO"),
+                (lambda: pv.PolyData().scattered.to_grid(3), ValueError, "input has no points"),
+                (lambda: pv.MultiBlock([]).scattered.to_grid(3), ValueError, "input has no points"),
                 (lambda: data.scattered.compute_derivative(["plane"]), TypeError, "one array"),
                 (lambda: pv.Table({"a": np.ones(1)}).scattered.probe([[0, 0, 0]]), TypeError, "has no samples"),
                 (lambda: pv.PolyData().scattered.probe([[0, 0, 0]]), ValueError, "no points")):

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef vtkIsopointCut_h
+#define vtkIsopointCut_h
+
+#include "Core/Base/Vector.h"
+#include "Core/ExtractionRequest.h"
+#include "Input/vtkIsopointBlocks.h"
+#include "Input/vtkIsopointInputState.h"
+
+#include "vtkSmartPointer.h"
+
+#include <vector>
+
+namespace isopoint
+{
+struct Execution;
+}
+class vtkDataSetAttributes;
+class vtkDoubleArray;
+class vtkImplicitFunction;
+class vtkPolyData;
+
+/// An implicit function whose level sets are slices of samples (docs/triangles.md, "Slices"). Of a
+/// plane without a transform, the values depend on the normal alone, and the rest is in the level.
+class vtkIsopointCut
+{
+public:
+  explicit vtkIsopointCut(vtkImplicitFunction* function);
+
+  bool IsPlane() const { return this->AreOfNormal; }
+
+  /// The value where the function is 0.
+  double GetLevel() const { return this->Level; }
+
+  /// Cuts of equal states have equal values.
+  vtkIsopointInputState GetState() const;
+
+  /// The values at the samples of a block. Throws as loops of isopoint::Execution.
+  vtkSmartPointer<vtkDoubleArray> FindValues(
+    const isopoint::Execution& execution, const vtkIsopointBlock& block) const;
+
+  /// Moves the points of a slice towards the sample at the end of their edge on the other side of
+  /// the function, as far as it has their isovalue, and arrays of numbers with them.
+  /// @param ends the attributes of the samples at ends of edges, with their positions
+  /// @param positions the name of these
+  void MovePoints(const isopoint::Execution& execution,
+    const std::vector<isopoint::ExtractedIsosurface>& surfaces, vtkDataSetAttributes* ends,
+    const char* positions, vtkPolyData* slice) const;
+
+private:
+  double Evaluate(const isopoint::Vector& place) const;
+
+  vtkImplicitFunction* Function;
+  bool AreOfNormal = false;
+  isopoint::Vector Normal{};
+  double Level = 0.0;
+};
+
+#endif

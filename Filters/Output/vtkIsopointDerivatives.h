@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef vtkIsopointDerivatives_h
+#define vtkIsopointDerivatives_h
+
+#include "vtkSmartPointer.h"
+
+class vtkDoubleArray;
+
+// Each function computes an array from the gradients of vectors: nine components, the derivatives
+// of x by x, y and z, then those of y and z. As vtkGradientFilter defines it.
+// Throws isopoint::UsageError if there are not nine components, and std::bad_alloc.
+
+/// The trace. One component.
+vtkSmartPointer<vtkDoubleArray> vtkComputeIsopointDivergence(vtkDoubleArray* gradients);
+
+/// The curl. Three components.
+vtkSmartPointer<vtkDoubleArray> vtkComputeIsopointVorticity(vtkDoubleArray* gradients);
+
+/// Minus half the trace of the square of the gradient. One component.
+vtkSmartPointer<vtkDoubleArray> vtkComputeIsopointQCriterion(vtkDoubleArray* gradients);
+
+#endif

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef vtkIsopointSampleArrays_h
+#define vtkIsopointSampleArrays_h
+
+#include "Core/Places/ProbeRequest.h"
+#include "Input/vtkIsopointBlocks.h"
+
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace isopoint
+{
+class ProcessGroup;
+}
+class vtkDataArray;
+
+/// An array of the samples of all blocks.
+struct vtkIsopointSampleArray
+{
+  std::string Name;
+  int Components = 1; // 0: it is no array of all blocks
+  int Type = 0;       // of its values; double if blocks have different types
+  int Attribute = -1; // a vtkDataSetAttributes::AttributeTypes, or -1
+  bool AreIntegers = false;
+  std::vector<vtkDataArray*> Parts; // by block of this rank
+};
+
+/// Lists the numeric arrays that all blocks of all ranks have with as many components, in the order
+/// of the first block. Ghost marks and ids are never among them. Collective.
+/// @param dropped receives the names of other arrays
+/// @throws what isopoint::ProcessGroup throws
+std::vector<vtkIsopointSampleArray> vtkListIsopointArrays(isopoint::ProcessGroup& processes,
+  const std::vector<vtkIsopointBlock>& blocks, std::set<std::string>& dropped);
+
+/// Memory for an array at places: double, or for PlaceMethod::Nearest the type of the array.
+class vtkIsopointProbedArray
+{
+public:
+  /// @param isAlone whether the samples are those of this process
+  /// @throws std::bad_alloc
+  vtkIsopointProbedArray(const vtkIsopointSampleArray& array,
+    const std::vector<vtkIsopointBlock>& blocks, const isopoint::ProbeOptions& options,
+    vtkIdType places, bool isAlone);
+
+  /// For IsosurfaceExtractor::probe().
+  isopoint::ProbedArray& GetProbed() { return this->Probed; }
+
+  /// The result, once it is probed. @throws std::bad_alloc
+  vtkSmartPointer<vtkDataArray> Finish();
+
+private:
+  int Type; // of the result
+  vtkSmartPointer<vtkDataArray> Result;
+  isopoint::ProbedArray Probed;
+};
+
+/// Replaces the numbers of an array by those of another one that are finite, integers rounded.
+void vtkReplaceIsopointNumbers(vtkDataArray* found, vtkDataArray* array);
+
+/// Makes `probed` read an array of samples.
+void vtkReadIsopointArray(const vtkIsopointSampleArray& array,
+  const std::vector<vtkIsopointBlock>& blocks, isopoint::ProbedArray& probed);
+
+#endif

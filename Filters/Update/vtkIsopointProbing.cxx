@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Update/vtkIsopointProbing.h"
+
+#include "Common/vtkIsopointArrays.h"
+#include "Core/Base/Execution.h"
+#include "Core/Failure.h"
+#include "Input/vtkIsopointInput.h"
+#include "Input/vtkIsopointNumbers.h"
+#include "Output/vtkIsopointSampleArrays.h"
+#include "Update/vtkIsopointUpdate.h"
+
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+#include "vtkDoubleArray.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+vtkIsopointProbing::vtkIsopointProbing(vtkIsopointUpdate& update)
+  : Update(update)
+{
+}
+
+vtkIsopointProbing::~vtkIsopointProbing() = default;
+
+void vtkIsopointProbing::Run(vtkDataObject* output, const std::function<void()>& work)
+{
+  this->Counts = Counting();
+  const bool isDone =
+    this->Update.Run(output, work, [this](isopoint::OptionNaming) { return this->Describe(); });
+  this->Cloud = nullptr;
+  if (!isDone)
+  {
+    this->Counts = Counting();
+  }
+}
+
+void vtkIsopointProbing::Load(
+  vtkInformation* inputInfo, const vtkIsopointArrayChoice& array, const std::string& options)
+{
+  this->Update.CheckOptionsOnRanks(options, "probe");
+  this->Update.CollectBlocks(inputInfo, array);
+  const vtkIsopointBlocks& input = this->Update.GetInput();
+  this->Cloud = &this->Update.FindCloud(0, input.GetBlocks().size(), 0);
+  this->Loaded = this->Cloud->IsLoaded ? 0.0 : 0.2;
+  this->Update.Load(isopoint::partOf(this->Update.GetExecution(), 0.0, this->Loaded), *this->Cloud);
+
+  isopoint::SampleCounts& samples = this->Counts.Samples;
+  samples.withoutArray = static_cast<std::uint64_t>(input.GetNumberOfPointsWithoutArray());
+  samples.samples = samples.withoutArray;
+  if (array.GetRole() != vtkIsopointArrayChoice::NoArray && !this->Cloud->Blocks.empty())
+  {
+    const char* const name = array.Find(this->Cloud->Blocks.front().Attributes)->GetName();
+    samples.array = name ? name : "";
+  }
+  samples.count(this->Cloud->Extractor, vtkCountIsopointSamples(this->Cloud->Blocks));
+  samples.share(this->Update.GetProcesses());
+}
+
+const std::vector<vtkIsopointBlock>& vtkIsopointProbing::GetBlocks() const
+{
+  return this->Cloud->Blocks;
+}
+
+void vtkIsopointProbing::FindBounds(double bounds[6]) const
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double ends[2][3] = { { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
+  for (const vtkIsopointBlock& block : this->GetBlocks())
+  {
+    const vtkIsopointPositions positions(block.Positions);
+    for (vtkIdType i = 0; i < block.GetNumberOfSamples(); ++i)
+    {
+      double position[3];
+      positions(static_cast<std::size_t>(i), position);
+      const bool isExcluded =
+        block.Ghosts && (block.Ghosts->GetValue(i) & vtkIsopointBlock::Excluding) != 0;
+      if (isExcluded ||
+          !std::all_of(position, position + 3, [](double x) { return std::isfinite(x); }))
+      {
+        continue;
+      }
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        ends[0][axis] = std::min(ends[0][axis], position[axis]);
+        ends[1][axis] = std::max(ends[1][axis], position[axis]);
+      }
+    }
+  }
+  isopoint::ProcessGroup& processes = this->Update.GetProcesses();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    bounds[2 * axis] =
+      isopoint::fromOrderedKey(~processes.maximum(~isopoint::orderedKey(ends[0][axis])));
+    bounds[2 * axis + 1] =
+      isopoint::fromOrderedKey(processes.maximum(isopoint::orderedKey(ends[1][axis])));
+  }
+  if (bounds[0] > bounds[1])
+  {
+    throw isopoint::UsageError(
+      "All samples are hidden or have no finite position. Connect samples with finite positions.");
+  }
+}
+
+void vtkIsopointProbing::Probe(const std::vector<isopoint::Vector>& places,
+  const isopoint::ProbeOptions& options, const std::vector<isopoint::ProbedArray>& arrays,
+  std::vector<std::uint8_t>& kinds)
+{
+  kinds.resize(places.size());
+  this->Cloud->Extractor.probe(isopoint::partOf(this->Update.GetExecution(), this->Loaded, 1.0),
+    places, options, arrays, kinds.data());
+  const auto count = [&](std::uint8_t kind)
+  {
+    return this->Update.GetProcesses().sum(static_cast<std::uint64_t>(std::count_if(
+      kinds.begin(), kinds.end(), [kind](std::uint8_t bits) { return (bits & kind) != 0; })));
+  };
+  this->Counts.Places = this->Update.GetProcesses().sum(std::uint64_t{ places.size() });
+  this->Counts.Outside = count(isopoint::PlaceOutside);
+  this->Counts.Flat = count(isopoint::PlaceFlat);
+}
+
+std::vector<vtkIsopointProbing::Array> vtkIsopointProbing::ProbeAll(
+  const std::vector<isopoint::Vector>& places, const isopoint::ProbeOptions& options,
+  bool isOutsideHidden, std::vector<std::uint8_t>& kinds)
+{
+  this->Counts.IsOutsideLost =
+    isOutsideHidden || options.outside == isopoint::OutsideStrategy::Number;
+  isopoint::ProcessGroup& processes = this->Update.GetProcesses();
+  const std::vector<vtkIsopointSampleArray> arrays =
+    vtkListIsopointArrays(processes, this->GetBlocks(), this->Counts.Dropped);
+  this->Counts.HasArrays = !arrays.empty();
+  std::vector<vtkIsopointProbedArray> results;
+  std::vector<isopoint::ProbedArray> probed;
+  for (const vtkIsopointSampleArray& array : arrays)
+  {
+    results.emplace_back(array, this->GetBlocks(), options, static_cast<vtkIdType>(places.size()),
+      processes.size() == 1);
+    probed.push_back(results.back().GetProbed());
+  }
+  this->Probe(places, options, probed, kinds);
+  std::vector<Array> found;
+  for (std::size_t i = 0; i < results.size(); ++i)
+  {
+    found.push_back({ results[i].Finish(), arrays[i].Attribute });
+  }
+  return found;
+}
+
+vtkSmartPointer<vtkDoubleArray> vtkIsopointProbing::FindGradients(
+  const std::vector<isopoint::Vector>& places, const isopoint::ProbeOptions& options)
+{
+  const std::string& name = this->Counts.Samples.array;
+  std::set<std::string> others;
+  const std::vector<vtkIsopointSampleArray> all =
+    vtkListIsopointArrays(this->Update.GetProcesses(), this->GetBlocks(), others);
+  const auto array = std::find_if(
+    all.begin(), all.end(), [&](const vtkIsopointSampleArray& each) { return each.Name == name; });
+  if (array == all.end())
+  {
+    throw isopoint::UsageError(
+      "The array \"" + name +
+      "\" has different numbers of components in the blocks of the input, or"
+      " no name. Choose another one.");
+  }
+  isopoint::ProbedArray probed;
+  vtkReadIsopointArray(*array, this->GetBlocks(), probed);
+  const auto components = static_cast<std::size_t>(array->Components);
+  std::vector<double> values(components * places.size());
+  auto gradients = vtkSmartPointer<vtkDoubleArray>::New();
+  gradients->SetNumberOfComponents(3 * array->Components);
+  vtkAllocateTuples(gradients, static_cast<vtkIdType>(places.size()));
+  probed.values = values.data();
+  probed.gradients = gradients->GetPointer(0);
+  std::vector<std::uint8_t> kinds;
+  this->Probe(places, options, { probed }, kinds);
+  this->Counts.AreGradients = true;
+  return gradients;
+}
+
+std::vector<isopoint::Message> vtkIsopointProbing::Describe() const
+{
+  using isopoint::Message;
+  const Counting& counts = this->Counts;
+  std::vector<Message> messages;
+  const Message skipped = isopoint::describeSkipped(counts.Samples,
+    "There are no values. Connect samples with finite positions.",
+    "Values there are those of the samples around.");
+  if (!skipped.text.empty())
+  {
+    messages.push_back(skipped);
+  }
+  const std::string places = " of " + std::to_string(counts.Places) + " points ";
+  if (!counts.HasArrays)
+  {
+    messages.push_back({ "no arrays",
+      "The samples have no arrays of numbers, nor has the output. Load arrays in the reader." });
+  }
+  if (counts.Places > 0 && counts.Outside == counts.Places && counts.IsOutsideLost)
+  {
+    messages.push_back({ "all outside",
+      "All " + std::to_string(counts.Places) +
+        " points are outside of the samples, where there are no values. Move them among the"
+        " samples." });
+  }
+  if (counts.Flat > 0)
+  {
+    messages.push_back({ "flat",
+      "At " + std::to_string(counts.Flat) + places +
+        "the samples around are in a plane or on a line: " +
+        (counts.AreGradients ? "gradients have no part across."
+                             : "values are those at the nearest point of it."),
+      Message::Note });
+  }
+  if (!counts.Dropped.empty())
+  {
+    std::string names;
+    for (const std::string& name : counts.Dropped)
+    {
+      names += (names.empty() ? "\"" : ", \"") + name + "\"";
+    }
+    messages.push_back({ "left out " + names,
+      "Left out of the output: " + names +
+        ". Only arrays of numbers are interpolated that all blocks have, with the same components.",
+      Message::Note });
+  }
+  return messages;
+}
+
+void vtkAppendIsopointPlaces(vtkDataSet* data, std::vector<isopoint::Vector>& places)
+{
+  const vtkIsopointPositions positions(data);
+  const auto first = places.size();
+  places.resize(first + static_cast<std::size_t>(data->GetNumberOfPoints()));
+  for (std::size_t i = first; i < places.size(); ++i)
+  {
+    positions(i - first, places[i].data());
+  }
+}

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef vtkIsopointProbing_h
+#define vtkIsopointProbing_h
+
+#include "Core/Base/Vector.h"
+#include "Core/Places/ProbeRequest.h"
+#include "Core/Report.h"
+
+#include "vtkSmartPointer.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+class vtkDataArray;
+class vtkDataObject;
+class vtkDataSet;
+class vtkDoubleArray;
+class vtkInformation;
+class vtkIsopointArrayChoice;
+class vtkIsopointUpdate;
+struct vtkIsopointBlock;
+struct vtkIsopointCloud;
+
+/// Interpolates arrays of samples at places, in the updates of a filter.
+class vtkIsopointProbing
+{
+public:
+  /// @param update of the filter; must outlive this
+  explicit vtkIsopointProbing(vtkIsopointUpdate& update);
+  ~vtkIsopointProbing();
+
+  /// Runs the work of an update; see vtkIsopointUpdate::Run(). Collective.
+  void Run(vtkDataObject* output, const std::function<void()>& work);
+
+  /// Of the last update; all 0 if it failed.
+  const isopoint::SampleCounts& GetCounts() const { return this->Counts.Samples; }
+
+  // For the work, in this order. All are collective.
+
+  /// Loads the samples of an input, without values.
+  /// @param options a text with all options that ranks must share
+  /// @throws isopoint::UsageError, or what isopoint::IsosurfaceExtractor throws
+  void Load(
+    vtkInformation* inputInfo, const vtkIsopointArrayChoice& array, const std::string& options);
+
+  /// The samples of this rank.
+  const std::vector<vtkIsopointBlock>& GetBlocks() const;
+
+  /// The bounds of the samples in use on all ranks: least and greatest x, y and z.
+  /// @throws isopoint::UsageError if there are none
+  void FindBounds(double bounds[6]) const;
+
+  /// Interpolates all arrays of the samples. Counts places, arrays left out, and places outside.
+  /// @param isOutsideHidden whether places outside will be hidden
+  /// @param kinds receives isopoint::PlaceKinds of each place
+  /// @returns arrays with a tuple for each place; active attributes are listed beside them
+  struct Array
+  {
+    vtkSmartPointer<vtkDataArray> Values;
+    int Attribute; // a vtkDataSetAttributes::AttributeTypes, or -1
+  };
+  std::vector<Array> ProbeAll(const std::vector<isopoint::Vector>& places,
+    const isopoint::ProbeOptions& options, bool isOutsideHidden, std::vector<std::uint8_t>& kinds);
+
+  /// The gradients of the chosen array at places: for each of its components the derivatives by x,
+  /// y and z. NaN where there is none.
+  /// @throws isopoint::UsageError if blocks have different arrays
+  vtkSmartPointer<vtkDoubleArray> FindGradients(
+    const std::vector<isopoint::Vector>& places, const isopoint::ProbeOptions& options);
+
+private:
+  struct Counting
+  {
+    isopoint::SampleCounts Samples;
+    std::uint64_t Places = 0;
+    std::uint64_t Outside = 0;
+    std::uint64_t Flat = 0;
+    bool HasArrays = true;
+    bool IsOutsideLost = false; // whether places outside get no values, or are hidden
+    bool AreGradients = false;
+    std::set<std::string> Dropped; // arrays
+  };
+  void Probe(const std::vector<isopoint::Vector>& places, const isopoint::ProbeOptions& options,
+    const std::vector<isopoint::ProbedArray>& arrays, std::vector<std::uint8_t>& kinds);
+  std::vector<isopoint::Message> Describe() const;
+
+  vtkIsopointUpdate& Update;
+  Counting Counts;
+
+  // Of the present update.
+  vtkIsopointCloud* Cloud = nullptr;
+  double Loaded = 0.0; // share of the progress
+};
+
+/// The positions of the points of a data set, after those in the list.
+void vtkAppendIsopointPlaces(vtkDataSet* data, std::vector<isopoint::Vector>& places);
+
+#endif

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Update/vtkIsopointSlicing.h"
+
+#include "Common/vtkIsopointArrays.h"
+#include "Core/Contour.h"
+#include "Core/Failure.h"
+#include "Core/OutputArrays.h"
+#include "Core/Places/ProbeRequest.h"
+#include "Input/vtkIsopointInput.h"
+#include "Input/vtkIsopointNumbers.h"
+#include "Output/vtkIsopointCut.h"
+#include "Output/vtkIsopointEndSamples.h"
+#include "Output/vtkIsopointOutput.h"
+#include "Output/vtkIsopointOutputArrays.h"
+#include "Output/vtkIsopointPiece.h"
+#include "Output/vtkIsopointSampleArrays.h"
+#include "Update/vtkIsopointUpdate.h"
+
+#include "vtkCellArray.h"
+#include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkImplicitFunction.h"
+#include "vtkInformation.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <set>
+#include <sstream>
+#include <string>
+
+namespace
+{
+
+/// The name of positions among arrays of samples.
+constexpr const char* positionsName = "vtkIsopointPositions";
+
+/// All options that ranks must share.
+std::string textOf(const vtkIsopointSlicing::Options& options, const vtkIsopointCut& cut)
+{
+  std::ostringstream text;
+  text << std::hexfloat << options.Function->GetClassName() << " " << options.AreFits << " "
+       << cut.GetLevel() + 0.0;
+  for (const double offset : options.Offsets)
+  {
+    text << " " << offset + 0.0;
+  }
+  isopoint::forEachOption(
+    options.Core, [&](const auto& option) { text << " " << options.Core.*option.value + 0.0; });
+  return text.str();
+}
+
+/// The attributes of a block's samples, and their positions.
+vtkSmartPointer<vtkPointData> withPositions(const vtkIsopointBlock& block)
+{
+  const vtkIsopointPositions read(block.Positions);
+  const auto positions = vtkSmartPointer<vtkDoubleArray>::New();
+  positions->SetName(positionsName);
+  positions->SetNumberOfComponents(3);
+  vtkAllocateTuples(positions, block.GetNumberOfSamples());
+  double* const numbers = positions->GetPointer(0);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(block.GetNumberOfSamples()); ++i)
+  {
+    read(i, numbers + 3 * i);
+  }
+  auto attributes = vtkSmartPointer<vtkPointData>::New();
+  attributes->ShallowCopy(block.Attributes);
+  attributes->AddArray(positions);
+  return attributes;
+}
+
+} // namespace
+
+vtkIsopointSlicing::vtkIsopointSlicing(vtkIsopointUpdate& update)
+  : Update(update)
+{
+}
+
+vtkIsopointSlicing::~vtkIsopointSlicing() = default;
+
+void vtkIsopointSlicing::Run(
+  const Options& options, vtkInformation* inputInfo, vtkInformation* outputInfo)
+{
+  this->Report = isopoint::Report();
+  const bool isDone = this->Update.Run(
+    vtkDataObject::GetData(outputInfo), [&]() { this->Slice(options, inputInfo, outputInfo); },
+    [this](isopoint::OptionNaming naming) { return this->Describe(naming); });
+  if (!isDone)
+  {
+    this->Report = isopoint::Report();
+  }
+  if (!isDone || !this->Update.KeepsTrees())
+  {
+    this->Values.clear();
+    this->ValuesOf.clear();
+  }
+}
+
+void vtkIsopointSlicing::Slice(
+  const Options& options, vtkInformation* inputInfo, vtkInformation* outputInfo)
+{
+  if (!options.Function)
+  {
+    throw isopoint::UsageError("There is no cut function. Set a plane or another one.");
+  }
+  const vtkIsopointCut cut(options.Function);
+  isopoint::checkOptions(options.Core);
+  this->Update.CheckOptionsOnRanks(textOf(options, cut), "slice");
+  const int ghostLevels = this->Update.GetGhostLevels(outputInfo);
+
+  vtkIsopointCloud& cloud = this->Load(cut, inputInfo);
+  std::vector<double> isovalues = options.Offsets;
+  std::transform(isovalues.begin(), isovalues.end(), isovalues.begin(),
+    [&](double offset) { return cut.GetLevel() + offset; });
+  this->Report = isopoint::Report(options.Core, isopoint::sortedIsovalues(isovalues));
+  this->Report.countSamples(cloud.Extractor, vtkCountIsopointSamples(cloud.Blocks));
+
+  constexpr double loaded = 0.2; // shares of the progress
+  constexpr double extracted = 0.5;
+  std::vector<isopoint::ExtractedIsosurface> surfaces = isopoint::extractIsovalues(
+    isopoint::partOf(this->Update.GetExecution(), loaded, options.AreFits ? extracted : 1.0),
+    cloud.Extractor, options.Core, ghostLevels, this->Report);
+  auto* const output = vtkPolyData::SafeDownCast(vtkDataObject::GetData(outputInfo));
+  this->FillOutput(options, cut, cloud, surfaces, output);
+  if (ghostLevels > 0)
+  {
+    vtkAddIsopointGhosts(surfaces, output);
+  }
+  this->Report.share(this->Update.GetProcesses());
+  this->Update.GetExecution().progress(1.0);
+  this->Report.isPieceOfProcess = this->Update.TakePiece(outputInfo, output);
+}
+
+vtkIsopointCloud& vtkIsopointSlicing::Load(const vtkIsopointCut& cut, vtkInformation* inputInfo)
+{
+  this->Update.CollectBlocks(inputInfo, vtkIsopointArrayChoice());
+  vtkIsopointCloud& cloud =
+    this->Update.FindCloud(0, this->Update.GetInput().GetBlocks().size(), 0, cut.GetState());
+  cloud.Types.areFloatValues = false;
+  constexpr double evaluated = 0.05; // shares of the progress
+  constexpr double loaded = 0.2;
+  if (this->ValuesOf != cloud.State)
+  {
+    this->ValuesOf.clear();
+    this->Values.clear();
+    for (const vtkIsopointBlock& block : cloud.Blocks)
+    {
+      this->Values.push_back(
+        cut.FindValues(isopoint::partOf(this->Update.GetExecution(), 0.0, evaluated), block));
+    }
+    this->ValuesOf = cloud.State;
+  }
+  for (std::size_t i = 0; i < cloud.Blocks.size(); ++i)
+  {
+    cloud.Blocks[i].Scalars = this->Values[i];
+  }
+  this->Update.Load(isopoint::partOf(this->Update.GetExecution(), evaluated, loaded), cloud);
+  return cloud;
+}
+
+void vtkIsopointSlicing::FillOutput(const Options& options, const vtkIsopointCut& cut,
+  vtkIsopointCloud& cloud, std::vector<isopoint::ExtractedIsosurface>& surfaces,
+  vtkPolyData* output)
+{
+  const isopoint::Execution& execution = this->Update.GetExecution();
+  std::vector<vtkIsopointBlock> blocks = cloud.Blocks;
+  std::vector<vtkSmartPointer<vtkPointData>> attributes;
+  for (vtkIsopointBlock& block : blocks)
+  {
+    if (!cut.IsPlane())
+    {
+      attributes.push_back(withPositions(block));
+      block.Attributes = attributes.back();
+    }
+  }
+  const vtkIsopointEndSamples samples(this->Update.GetProcesses(), blocks, surfaces);
+  const bool isSingle = isopoint::isSinglePrecision(options.Core, cloud.Types.areFloatPositions);
+  output->SetPoints(
+    vtkNewIsopointPositions(execution, surfaces, isSingle ? VTK_FLOAT : VTK_DOUBLE));
+  output->SetPolys(vtkNewIsopointTriangles(execution, surfaces));
+  vtkInterpolateIsopointArrays(
+    execution, samples.GetAttributes(), samples.GetScalars(), surfaces, output->GetPointData());
+  if (!cut.IsPlane())
+  {
+    output->GetPointData()->RemoveArray(positionsName);
+    cut.MovePoints(execution, surfaces, samples.GetAttributes(), positionsName, output);
+  }
+  if (options.AreFits)
+  {
+    this->Fit(cloud, output);
+  }
+}
+
+/// Replaces arrays by those of fits, where there are some. They extrapolate at rims: edges of
+/// slivers on the convex hull are far too long for linear interpolation.
+void vtkIsopointSlicing::Fit(vtkIsopointCloud& cloud, vtkPolyData* output)
+{
+  std::vector<isopoint::Vector> places(static_cast<std::size_t>(output->GetNumberOfPoints()));
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    output->GetPoint(static_cast<vtkIdType>(i), places[i].data());
+  }
+  isopoint::ProcessGroup& processes = this->Update.GetProcesses();
+  isopoint::ProbeOptions options;
+  options.outside = isopoint::OutsideStrategy::Extrapolate;
+  std::set<std::string> dropped;
+  std::vector<vtkIsopointProbedArray> results;
+  std::vector<isopoint::ProbedArray> probed;
+  for (const vtkIsopointSampleArray& array :
+    vtkListIsopointArrays(processes, cloud.Blocks, dropped))
+  {
+    results.emplace_back(
+      array, cloud.Blocks, options, output->GetNumberOfPoints(), processes.size() == 1);
+    probed.push_back(results.back().GetProbed());
+  }
+  if (probed.empty())
+  {
+    return;
+  }
+  constexpr double extracted = 0.5; // share of the progress
+  cloud.Extractor.probe(
+    isopoint::partOf(this->Update.GetExecution(), extracted, 1.0), places, options, probed);
+  for (vtkIsopointProbedArray& result : results)
+  {
+    const vtkSmartPointer<vtkDataArray> fitted = result.Finish();
+    vtkDataArray* const array = output->GetPointData()->GetArray(fitted->GetName());
+    if (array)
+    {
+      vtkReplaceIsopointNumbers(fitted, array);
+    }
+  }
+}
+
+std::vector<isopoint::Message> vtkIsopointSlicing::Describe(isopoint::OptionNaming naming) const
+{
+  const isopoint::Report& report = this->Report;
+  std::vector<isopoint::Message> messages;
+  const isopoint::Message skipped =
+    isopoint::describeSkipped(report, "There is no slice. Connect samples with finite positions.",
+      "The slice there is that of the samples around.");
+  if (!skipped.text.empty())
+  {
+    messages.push_back(skipped);
+  }
+  if (report.pointCount() == 0 && report.least <= report.greatest)
+  {
+    const bool isInside = std::any_of(report.isovalues.begin(), report.isovalues.end(),
+      [&](double value) { return value > report.least && value <= report.greatest; });
+    messages.push_back({ "empty slice",
+      "The slice is empty: " +
+        (!isInside ? std::string("all samples are on one side of it. Move it among the samples.")
+          : report.droppedInGaps > 0
+            ? "all of it is in gaps between samples. Turn " +
+                naming(isopoint::option::dropGaps.name) + " off."
+            : std::string("the samples are in one plane, or fewer than four.")) });
+  }
+  if (report.isPieceOfProcess)
+  {
+    messages.push_back(isopoint::describePieces());
+  }
+  return messages;
+}

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef vtkIsopointSlicing_h
+#define vtkIsopointSlicing_h
+
+#include "Core/ExtractionRequest.h"
+#include "Core/Options.h"
+#include "Core/Report.h"
+#include "Input/vtkIsopointInputState.h"
+
+#include "vtkSmartPointer.h"
+
+#include <vector>
+
+class vtkDoubleArray;
+class vtkImplicitFunction;
+class vtkInformation;
+class vtkIsopointCut;
+class vtkIsopointUpdate;
+class vtkPolyData;
+class vtkPointData;
+struct vtkIsopointCloud;
+
+/// Slices samples in the updates of a filter.
+class vtkIsopointSlicing
+{
+public:
+  /// What to slice.
+  struct Options
+  {
+    isopoint::Options Core; // of the triangles
+    vtkSmartPointer<vtkImplicitFunction> Function;
+    std::vector<double> Offsets; // values of the function
+    bool AreFits = true;         // whether arrays come from fits
+  };
+
+  /// @param update of the filter; must outlive this
+  explicit vtkIsopointSlicing(vtkIsopointUpdate& update);
+  ~vtkIsopointSlicing();
+
+  /// Updates the output, a vtkPolyData; see vtkIsopointUpdate::Run(). Collective.
+  void Run(const Options& options, vtkInformation* inputInfo, vtkInformation* outputInfo);
+
+  /// Of the last update; empty if it failed.
+  const isopoint::Report& GetReport() const { return this->Report; }
+
+private:
+  void Slice(const Options& options, vtkInformation* inputInfo, vtkInformation* outputInfo);
+  vtkIsopointCloud& Load(const vtkIsopointCut& cut, vtkInformation* inputInfo);
+  void FillOutput(const Options& options, const vtkIsopointCut& cut, vtkIsopointCloud& cloud,
+    std::vector<isopoint::ExtractedIsosurface>& surfaces, vtkPolyData* output);
+  void Fit(vtkIsopointCloud& cloud, vtkPolyData* output);
+  std::vector<isopoint::Message> Describe(isopoint::OptionNaming naming) const;
+
+  vtkIsopointUpdate& Update;
+  isopoint::Report Report;
+
+  // Of the function at the samples, by block; kept with the tree.
+  std::vector<vtkSmartPointer<vtkDoubleArray>> Values;
+  vtkIsopointInputState ValuesOf;
+};
+
+#endif

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vtkScatteredGradientFilter.h"
+
+#include "Core/Failure.h"
+#include "Input/vtkIsopointBlocks.h"
+#include "Output/vtkIsopointDerivatives.h"
+#include "Output/vtkIsopointPlaces.h"
+#include "Update/vtkIsopointProbing.h"
+#include "Update/vtkIsopointUpdate.h"
+
+#include "vtkDataObject.h"
+#include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <sstream>
+
+vtkStandardNewMacro(vtkScatteredGradientFilter);
+
+vtkScatteredGradientFilter::vtkScatteredGradientFilter()
+  : Probing(std::make_unique<vtkIsopointProbing>(*this->Updater))
+{
+  this->SetProgressText("Scattered Gradient"); // as in ParaView's menu
+  this->SetInputArrayToProcess(
+    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
+}
+
+vtkScatteredGradientFilter::~vtkScatteredGradientFilter() = default;
+
+const isopoint::SampleCounts& vtkScatteredGradientFilter::GetSampleCounts() const
+{
+  return this->Probing->GetCounts();
+}
+
+vtkSmartPointer<vtkDataObject> vtkScatteredGradientFilter::NewOutput(
+  vtkInformationVector** inputVector)
+{
+  vtkDataObject* const input = vtkDataObject::GetData(inputVector[0]);
+  return vtkSmartPointer<vtkDataObject>::Take(input ? input->NewInstance() : nullptr);
+}
+
+int vtkScatteredGradientFilter::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkDataObject* const output = vtkDataObject::GetData(outputVector);
+  this->Probing->Run(
+    output, [&]() { this->Compute(inputVector[0]->GetInformationObject(0), output); });
+  return 1;
+}
+
+void vtkScatteredGradientFilter::Compute(vtkInformation* inputInfo, vtkDataObject* output)
+{
+  const vtkIsopointArrayChoice choice(
+    this->GetInputArrayInformation(0), vtkIsopointArrayChoice::Tuples);
+  std::ostringstream options;
+  options << choice.Describe() << " " << this->Interpolation << this->ComputeGradient
+          << this->ComputeDivergence << this->ComputeVorticity << this->ComputeQCriterion;
+  this->Probing->Load(inputInfo, choice, options.str());
+
+  const std::vector<vtkIsopointBlock>& blocks = this->Probing->GetBlocks();
+  std::vector<isopoint::Vector> places;
+  for (const vtkIsopointBlock& block : blocks)
+  {
+    vtkAppendIsopointPlaces(block.Positions, places);
+  }
+  isopoint::ProbeOptions probing;
+  probing.method = static_cast<isopoint::PlaceMethod>(this->Interpolation);
+  const vtkSmartPointer<vtkDoubleArray> gradients = this->Probing->FindGradients(places, probing);
+
+  std::vector<vtkSmartPointer<vtkDoubleArray>> arrays;
+  if (this->ComputeGradient)
+  {
+    gradients->SetName(this->ResultArrayName.c_str());
+    arrays.push_back(gradients);
+  }
+  const auto derive = [&](vtkTypeBool isWanted, const std::string& name, auto compute)
+  {
+    if (isWanted)
+    {
+      arrays.push_back(compute(gradients));
+      arrays.back()->SetName(name.c_str());
+    }
+  };
+  derive(this->ComputeDivergence, this->DivergenceArrayName, vtkComputeIsopointDivergence);
+  derive(this->ComputeVorticity, this->VorticityArrayName, vtkComputeIsopointVorticity);
+  derive(this->ComputeQCriterion, this->QCriterionArrayName, vtkComputeIsopointQCriterion);
+
+  vtkDataObject* const input = vtkDataObject::GetData(inputInfo);
+  vtkCopyIsopointInput(input, output);
+  const std::vector<vtkDataObject*> from = vtkListIsopointLeaves(input);
+  const std::vector<vtkDataObject*> to = vtkListIsopointLeaves(output);
+  vtkIdType first = 0;
+  for (const vtkIsopointBlock& block : blocks)
+  {
+    const bool areCells = block.Attributes == from[block.Leaf]->GetAttributes(vtkDataObject::CELL);
+    vtkDataSetAttributes* const attributes =
+      to[block.Leaf]->GetAttributes(areCells ? vtkDataObject::CELL : vtkDataObject::POINT);
+    for (vtkDoubleArray* const array : arrays)
+    {
+      vtkAddIsopointTuples(array, first, block.GetNumberOfSamples(), -1, attributes);
+    }
+    first += block.GetNumberOfSamples();
+  }
+}
+
+void vtkScatteredGradientFilter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Interpolation: " << this->Interpolation << "\n";
+  os << indent << "ComputeGradient: " << this->ComputeGradient << "\n";
+  os << indent << "ComputeDivergence: " << this->ComputeDivergence << "\n";
+  os << indent << "ComputeVorticity: " << this->ComputeVorticity << "\n";
+  os << indent << "ComputeQCriterion: " << this->ComputeQCriterion << "\n";
+  os << indent << "ResultArrayName: " << this->ResultArrayName << "\n";
+  os << indent << "DivergenceArrayName: " << this->DivergenceArrayName << "\n";
+  os << indent << "VorticityArrayName: " << this->VorticityArrayName << "\n";
+  os << indent << "QCriterionArrayName: " << this->QCriterionArrayName << "\n";
+}

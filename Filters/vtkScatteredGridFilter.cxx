@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "vtkScatteredGridFilter.h"
+
+#include "Core/Failure.h"
+#include "Update/vtkIsopointProbing.h"
+
+#include "vtkDataArray.h"
+#include "vtkDataObject.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+vtkStandardNewMacro(vtkScatteredGridFilter);
+
+vtkScatteredGridFilter::vtkScatteredGridFilter()
+  : vtkScatteredProbeFilter(0)
+{
+  this->SetProgressText("Scattered Grid"); // as in ParaView's menu
+  this->MarkBlankPointsAndCells = true;
+  this->NullPointsStrategy = CLOSEST_POINT;
+}
+
+vtkImageData* vtkScatteredGridFilter::GetOutput()
+{
+  return vtkImageData::SafeDownCast(this->GetOutputDataObject(0));
+}
+
+vtkSmartPointer<vtkDataObject> vtkScatteredGridFilter::NewOutput(vtkInformationVector**)
+{
+  return vtkSmartPointer<vtkImageData>::New();
+}
+
+int vtkScatteredGridFilter::RequestInformation(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  this->Superclass::RequestInformation(request, inputVector, outputVector);
+  vtkInformation* const info = outputVector->GetInformationObject(0);
+  int extent[6];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    extent[2 * axis] = 0;
+    extent[2 * axis + 1] = std::max(this->SamplingDimensions[axis], 1) - 1;
+  }
+  info->Set(Pipeline::WHOLE_EXTENT(), extent, 6);
+  info->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
+  // Those of samples that are an image.
+  info->Remove(vtkDataObject::ORIGIN());
+  info->Remove(vtkDataObject::SPACING());
+  info->Remove(vtkDataObject::DIRECTION());
+  return 1;
+}
+
+std::string vtkScatteredGridFilter::DescribeOptions() const
+{
+  std::ostringstream text;
+  text << this->Superclass::DescribeOptions() << std::hexfloat;
+  for (const int count : this->SamplingDimensions)
+  {
+    text << " " << count;
+  }
+  for (const double bound : this->SamplingBounds)
+  {
+    text << " " << (this->UseInputBounds ? 0.0 : bound);
+  }
+  return text.str();
+}
+
+void vtkScatteredGridFilter::MakePlaces(vtkInformationVector**, vtkInformation* outputInfo)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  double bounds[6];
+  std::copy_n(this->SamplingBounds, 6, bounds);
+  if (this->UseInputBounds)
+  {
+    this->Probing->FindBounds(bounds);
+  }
+  int whole[6];
+  int extent[6];
+  outputInfo->Get(Pipeline::WHOLE_EXTENT(), whole);
+  outputInfo->Get(Pipeline::UPDATE_EXTENT(), extent);
+  double spacing[3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double length = bounds[2 * axis + 1] - bounds[2 * axis];
+    if (this->SamplingDimensions[axis] < 1)
+    {
+      throw isopoint::UsageError("The sampling dimensions are not all positive. Set each to the"
+                                 " number of points along its axis.");
+    }
+    if (!(length >= 0.0) || !std::isfinite(length))
+    {
+      throw isopoint::UsageError("The sampling bounds are not three ascending pairs of numbers. Set"
+                                 " the least and the greatest x, y and z.");
+    }
+    if (length == 0.0)
+    {
+      whole[2 * axis + 1] = 0;
+      extent[2 * axis + 1] = std::min(extent[2 * axis + 1], 0);
+    }
+    const int steps = whole[2 * axis + 1];
+    spacing[axis] = steps > 0 ? length / steps : 1.0;
+    bounds[2 * axis] += steps > 0 ? 0.0 : 0.5 * length;
+  }
+  // So that the next update does not take missing layers for missing data.
+  outputInfo->Set(Pipeline::WHOLE_EXTENT(), whole, 6);
+  outputInfo->Set(Pipeline::UPDATE_EXTENT(), extent, 6);
+  auto* const image = vtkImageData::SafeDownCast(vtkDataObject::GetData(outputInfo));
+  image->SetOrigin(bounds[0], bounds[2], bounds[4]);
+  image->SetSpacing(spacing);
+  image->SetExtent(extent);
+}
+
+void vtkScatteredGridFilter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "SamplingDimensions: " << this->SamplingDimensions[0] << " "
+     << this->SamplingDimensions[1] << " " << this->SamplingDimensions[2] << "\n";
+  os << indent << "UseInputBounds: " << this->UseInputBounds << "\n";
+  os << indent << "SamplingBounds:";
+  for (const double bound : this->SamplingBounds)
+  {
+    os << " " << bound;
+  }
+  os << "\n";
+}

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/**
+ * @class   vtkScatteredGridFilter
+ * @brief   interpolate scattered samples at the points of an image
+ *
+ * vtkScatteredGridFilter is a vtkScatteredProbeFilter whose places are a vtkImageData in the bounds
+ * of the samples, as vtkResampleToImage. Its only input, the samples, is what the source is there.
+ * Points outside of the samples are hidden, as are cells with any of them (see
+ * SetMarkBlankPointsAndCells(), on by default here), so that contours and volumes end where the
+ * samples do. Hidden points have the value of the nearest sample (CLOSEST_POINT is the default
+ * here), because NaN would spread to the normals of contours. Axes along which the bounds have no
+ * length get one layer of points.
+ *
+ * If a piece of the output is requested, it is a box of the image. In a process group (see
+ * SetController()) the bounds are those of the samples of all ranks.
+ *
+ * @sa
+ * vtkScatteredProbeFilter vtkResampleToImage
+ */
+
+#ifndef vtkScatteredGridFilter_h
+#define vtkScatteredGridFilter_h
+
+#include "vtkScatteredIsopointFiltersModule.h" // for the export macro
+#include "vtkScatteredProbeFilter.h"
+
+class vtkImageData;
+
+class VTKSCATTEREDISOPOINTFILTERS_EXPORT vtkScatteredGridFilter : public vtkScatteredProbeFilter
+{
+public:
+  static vtkScatteredGridFilter* New();
+  vtkTypeMacro(vtkScatteredGridFilter, vtkScatteredProbeFilter);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * The number of points along each axis. Numbers below 1 are an error in the next update. Default:
+   * 100, 100, 100.
+   */
+  vtkSetVector3Macro(SamplingDimensions, int);
+  vtkGetVector3Macro(SamplingDimensions, int);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the image fills the bounds of the samples in use, or the SamplingBounds. Default: on.
+   */
+  vtkSetMacro(UseInputBounds, vtkTypeBool);
+  vtkGetMacro(UseInputBounds, vtkTypeBool);
+  vtkBooleanMacro(UseInputBounds, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * The bounds of the image if UseInputBounds is off: least and greatest x, y and z. Descending or
+   * infinite ones are an error in the next update. Default: 0, 1, 0, 1, 0, 1.
+   */
+  vtkSetVector6Macro(SamplingBounds, double);
+  vtkGetVector6Macro(SamplingBounds, double);
+  ///@}
+
+  /**
+   * The image.
+   */
+  vtkImageData* GetOutput();
+
+protected:
+  vtkScatteredGridFilter();
+  ~vtkScatteredGridFilter() override = default;
+
+  vtkSmartPointer<vtkDataObject> NewOutput(vtkInformationVector** inputVector) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  void MakePlaces(vtkInformationVector** inputVector, vtkInformation* outputInfo) override;
+  std::string DescribeOptions() const override;
+
+  int SamplingDimensions[3] = { 100, 100, 100 };
+  vtkTypeBool UseInputBounds = true;
+  double SamplingBounds[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 };
+
+private:
+  vtkScatteredGridFilter(const vtkScatteredGridFilter&) = delete;
+  void operator=(const vtkScatteredGridFilter&) = delete;
+};
+
+#endif

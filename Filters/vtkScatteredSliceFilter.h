@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/**
+ * @class   vtkScatteredSliceFilter
+ * @brief   slice scattered samples by an implicit function
+ *
+ * vtkScatteredSliceFilter generates triangles where an implicit function has given values, with all
+ * arrays of the samples, straight from scattered samples: vtkCutter for data without cells. The
+ * slice is the isosurface of the function's values at the samples in their Delaunay
+ * tetrahedralization, as vtkScatteredIsosurfaceFilter extracts it, and ends where the samples end.
+ * docs/triangles.md in the source distribution defines it.
+ *
+ * Samples are the points of the input, the centers of its cells if it has arrays of cells only, or
+ * the leaves of hyper tree grids, of all blocks. Which are skipped, and the guarantees on threads,
+ * ranks, order and the kept tree, are those of vtkScatteredIsosurfaceFilter.
+ *
+ * Points on planes are exact, up to rounding. With another function, including a vtkPlane with a
+ * transform, they move onto it along the way to the sample at the end of their edge on its other
+ * side. Triangles face against the function's gradient.
+ *
+ * Arrays keep their types; integers are rounded. Strings and pedigree ids are those of the nearer
+ * end of the edge; global ids are left out, and arrays that not all blocks have. A function must
+ * have a finite value everywhere.
+ *
+ * Moving a plane along its normal keeps the tree and all values, which makes the next slice several
+ * times faster; other changes of the function keep the tree.
+ *
+ * @sa
+ * vtkScatteredIsosurfaceFilter vtkScatteredProbeFilter vtkCutter
+ */
+
+#ifndef vtkScatteredSliceFilter_h
+#define vtkScatteredSliceFilter_h
+
+#include "vtkContourValues.h" // for inline methods
+#include "vtkNew.h"           // for the offsets
+#include "vtkScatteredAlgorithm.h"
+#include "vtkScatteredIsopointFiltersModule.h" // for the export macro
+#include "vtkSmartPointer.h"                   // for the function
+
+#include <memory> // for std::unique_ptr
+
+class vtkImplicitFunction;
+class vtkIsopointSlicing;
+class vtkPolyData;
+
+class VTKSCATTEREDISOPOINTFILTERS_EXPORT vtkScatteredSliceFilter : public vtkScatteredAlgorithm
+{
+public:
+  static vtkScatteredSliceFilter* New();
+  vtkTypeMacro(vtkScatteredSliceFilter, vtkScatteredAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /**
+   * The slice.
+   */
+  vtkPolyData* GetOutput();
+
+  ///@{
+  /**
+   * The function. Without one, updates fail. Default: null.
+   */
+  virtual void SetCutFunction(vtkImplicitFunction* function);
+  vtkImplicitFunction* GetCutFunction();
+  ///@}
+
+  ///@{
+  /**
+   * The values of the function on slices, as in vtkCutter: for a vtkPlane distances along its
+   * normal. Repeated values count once. Default: one value, 0.
+   */
+  void SetValue(int i, double value) { this->ContourValues->SetValue(i, value); }
+  double GetValue(int i) { return this->ContourValues->GetValue(i); }
+  double* GetValues() { return this->ContourValues->GetValues(); }
+  void GetValues(double* contourValues) { this->ContourValues->GetValues(contourValues); }
+  void SetNumberOfContours(int number) { this->ContourValues->SetNumberOfContours(number); }
+  vtkIdType GetNumberOfContours() { return this->ContourValues->GetNumberOfContours(); }
+  void GenerateValues(int numContours, double range[2])
+  {
+    this->ContourValues->GenerateValues(numContours, range);
+  }
+  void GenerateValues(int numContours, double rangeStart, double rangeEnd)
+  {
+    this->ContourValues->GenerateValues(numContours, rangeStart, rangeEnd);
+  }
+  ///@}
+
+  enum InterpolationMethods
+  {
+    FITS = 0,
+    LINEAR = 1
+  };
+
+  ///@{
+  /**
+   * Where the arrays of points come from:
+   * - FITS: local polynomial fits, as in vtkScatteredProbeFilter with BLEND; at rims they
+   *   extrapolate. Where no sample has a finite value, LINEAR.
+   * - LINEAR: linear interpolation along the edges of the tetrahedralization. At rims, edges of
+   *   slivers on the convex hull may be far too long for that.
+   *
+   * Values outside the enumeration are clamped. Default: FITS.
+   */
+  vtkSetClampMacro(Interpolation, int, FITS, LINEAR);
+  vtkGetMacro(Interpolation, int);
+  ///@}
+
+  ///@{
+  /**
+   * Whether to merge points and flip edges, so that triangles are well shaped; see
+   * vtkScatteredIsosurfaceFilter. Default: on.
+   */
+  vtkSetMacro(Regularize, vtkTypeBool);
+  vtkGetMacro(Regularize, vtkTypeBool);
+  vtkBooleanMacro(Regularize, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the slice ends in voids between samples. A full convex body keeps its whole section.
+   * See docs/triangles.md. If off, the slice is that of the samples' convex hull. Default: on.
+   */
+  vtkSetMacro(DropGaps, vtkTypeBool);
+  vtkGetMacro(DropGaps, vtkTypeBool);
+  vtkBooleanMacro(DropGaps, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * The type of the output's points: vtkAlgorithm::SINGLE_PRECISION, DOUBLE_PRECISION, or
+   * DEFAULT_PRECISION, which is single if the points of all blocks are float. Other values are
+   * clamped. Default: DEFAULT_PRECISION.
+   */
+  vtkSetClampMacro(OutputPointsPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
+  vtkGetMacro(OutputPointsPrecision, int);
+  ///@}
+
+  /**
+   * The number of points that the last update made on all ranks, without ghosts.
+   */
+  vtkIdType GetNumberOfExtractedPoints() const;
+
+  /**
+   * The modification time, including those of the function and of its values.
+   */
+  vtkMTimeType GetMTime() override;
+
+protected:
+  vtkScatteredSliceFilter();
+  ~vtkScatteredSliceFilter() override;
+
+  vtkSmartPointer<vtkDataObject> NewOutput(vtkInformationVector** inputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+  vtkSmartPointer<vtkImplicitFunction> CutFunction;
+  vtkNew<vtkContourValues> ContourValues;
+  int Interpolation = FITS;
+  vtkTypeBool Regularize = true;
+  vtkTypeBool DropGaps = true;
+  int OutputPointsPrecision = DEFAULT_PRECISION;
+
+private:
+  vtkScatteredSliceFilter(const vtkScatteredSliceFilter&) = delete;
+  void operator=(const vtkScatteredSliceFilter&) = delete;
+
+  const isopoint::SampleCounts& GetSampleCounts() const override;
+
+  const std::unique_ptr<vtkIsopointSlicing> Slicing;
+};
+
+#endif

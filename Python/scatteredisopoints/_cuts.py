@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What slices samples: planes and other implicit functions."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Callable, Optional, Union
+
+import numpy as np
+
+from ._arrays import as_numpy, module_of
+
+Normal = Union[str, Any]
+"""The name of an axis, such as "x" or "-x", or three numbers."""
+
+
+class Cut:
+    """An implicit function whose level sets are slices."""
+
+    key: Any
+    """Cuts of equal keys, except None, have equal values everywhere."""
+
+    is_plane: bool
+
+    def at(self, places: np.ndarray) -> np.ndarray:
+        """The values at places of float64, shape (n, 3)."""
+        raise NotImplementedError
+
+
+class Plane(Cut):
+    """The function dot(place, normal)."""
+
+    is_plane = True
+
+    def __init__(self, normal: np.ndarray):
+        self.normal = self.key = tuple(normal.tolist())
+
+    def at(self, places: np.ndarray) -> np.ndarray:
+        # Not as a product of matrices, whose rounding depends on the library and its threads.
+        x, y, z = self.normal
+        return places[:, 0] * x + places[:, 1] * y + places[:, 2] * z
+
+
+class Function(Cut):
+    """A function of arrays of NumPy, or a vtkImplicitFunction."""
+
+    is_plane = False
+    key = None  # it may have changed
+
+    def __init__(self, function: Callable[[np.ndarray], Any]):
+        self.function = evaluator(function) if is_implicit_function(function) else function
+
+    def at(self, places: np.ndarray) -> np.ndarray:
+        values = np.asarray(self.function(places), dtype=np.float64)
+        if values.shape != (len(places),):
+            raise ValueError(f"function returns the shape {values.shape} for places of the shape {places.shape}: it is"
+                             " to return one number for each place")
+        return values
+
+
+def is_implicit_function(function: Any) -> bool:
+    """Whether an object is a vtkImplicitFunction."""
+    return hasattr(function, "EvaluateFunction") and hasattr(function, "FunctionValue")
+
+
+def evaluator(function: Any) -> Callable[[np.ndarray], np.ndarray]:
+    """A vtkImplicitFunction as a function of arrays of NumPy."""
+    core = module_of(function, "vtkCommonCore")
+    support = module_of(function, "util.numpy_support")
+
+    def values(places: np.ndarray) -> np.ndarray:
+        found = core.vtkDoubleArray()
+        found.SetNumberOfTuples(len(places))
+        if len(places):
+            function.FunctionValue(support.numpy_to_vtk(np.ascontiguousarray(places)), found)
+        return as_numpy(found)
+
+    return values
+
+
+def make_cut(normal: Normal, origin: Any, function: Any, center: Callable[[], np.ndarray]) -> tuple[Cut, float]:
+    """What slices, and the level of the slice. Raises ValueError or TypeError for unusable arguments.
+
+    Parameters
+    ----------
+    center
+        Returns the default of the origin.
+    """
+    if function is None:
+        plane = Plane(_normal_of(normal))
+        origin = center() if origin is None else three_numbers("origin", origin)
+        return plane, float(plane.at(origin[None])[0])
+    if origin is not None:
+        raise TypeError("origin goes with a normal, not with a function")
+    if is_implicit_function(function) and function.IsA("vtkPlane") and function.GetTransform() is None:
+        plane = Plane(np.array(function.GetNormal()))
+        return plane, float(plane.at(np.array([function.GetOrigin()]))[0])
+    if not (callable(function) or is_implicit_function(function)):
+        raise TypeError(f"function cannot be {function!r}: it is a function of places, shape (n, 3), or a"
+                        " vtkImplicitFunction")
+    return Function(function), 0.0
+
+
+def _normal_of(normal: Normal) -> np.ndarray:
+    if isinstance(normal, str):
+        axis = "xyz".find(normal[-1:].lower()) if len(normal) in (1, 2) and normal[:-1] in ("", "-", "+") else -1
+        if axis < 0:
+            raise ValueError(f'normal cannot be {normal!r}: it is "x", "y", "z", "-x", "-y", "-z" or three numbers')
+        return np.eye(3)[axis] * (-1.0 if normal[0] == "-" else 1.0) + 0.0  # no negative zeros
+    numbers = three_numbers("normal", normal)
+    length = math.hypot(*numbers)
+    if not 0.0 < length < math.inf:
+        raise ValueError(f"normal cannot be {normal!r}: its length is {length}")
+    return numbers / length
+
+
+def three_numbers(name: str, value: Any) -> np.ndarray:
+    """A place or a direction. Raises ValueError for other values."""
+    try:
+        numbers = np.array(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        numbers = np.empty(0)
+    if numbers.shape != (3,) or not np.isfinite(numbers).all():
+        raise ValueError(f"{name} cannot be {value!r}: it has three finite numbers")
+    return numbers
+
+
+def shares_to_zero(values: Callable[[np.ndarray, np.ndarray], np.ndarray], begins: np.ndarray, ends: np.ndarray
+                   ) -> np.ndarray:
+    """Where a function is zero between places with values of different signs: shares of the ways, 0 to 1.
+
+    Each second step of bisection is one of the secant, so brackets always shrink. A way without a change of sign
+    has the share 0.
+
+    Parameters
+    ----------
+    values
+        The values of the function at the places with these indices, at these shares of the ways.
+    begins, ends
+        The values at both ends of the ways.
+    """
+    shares = np.zeros(len(begins))
+    left = np.flatnonzero(np.signbit(begins) != np.signbit(ends))
+    left = left[begins[left] != 0.0]
+    low, high = np.zeros(len(left)), np.ones(len(left))
+    at_low, at_high = begins[left], ends[left]
+    enough = 1e-15 * np.maximum(np.abs(at_low), np.abs(at_high))
+    for step in range(100):
+        if len(left) == 0:
+            break
+        secant = low + (high - low) * (at_low / (at_low - at_high))
+        tried = np.clip(secant, low, high) if step % 2 == 0 else 0.5 * (low + high)
+        found = values(left, tried)
+        shares[left] = tried
+        is_low = np.signbit(found) == np.signbit(at_low)
+        low, at_low = np.where(is_low, tried, low), np.where(is_low, found, at_low)
+        high, at_high = np.where(is_low, high, tried), np.where(is_low, at_high, found)
+        goes_on = (np.abs(found) > enough) & (high - low > 1e-15)
+        left, low, high, at_low, at_high, enough = (
+            each[goes_on] for each in (left, low, high, at_low, at_high, enough))
+    return shares
+
+
+def rounded(numbers: np.ndarray, dtype: np.dtype) -> np.ndarray:
+    """Numbers in a type, integers rounded to the nearest that it has."""
+    if dtype.kind == "f":
+        return numbers.astype(dtype)
+    limits = np.iinfo(dtype)
+    with np.errstate(invalid="ignore"):
+        nearest = np.rint(np.clip(numbers, float(limits.min), float(limits.max))).astype(dtype)
+    return np.where(numbers >= float(limits.max), limits.max, nearest).astype(dtype)
+
+
+def describe_empty(levels: list[float], least: float, greatest: float, dropped: int, is_plane: bool) -> Optional[str]:
+    """Why slices at these levels are all empty, for samples with values from the least to the greatest."""
+    if least > greatest or math.isnan(least):
+        return None
+    if not any(least < level <= greatest for level in levels):
+        at = ", ".join(f"{level:g}" for level in levels[:5]) or "no level"
+        return (f"The slice is empty: the function is from {least:g} to {greatest:g} at the samples, and not at {at}."
+                + (" Choose an origin between the samples." if is_plane else " Choose other offsets."))
+    if dropped:
+        return "The slice is empty: all of it is in gaps between samples. Turn drop_gaps off."
+    return "The slice is empty: the samples are in one plane, or fewer than four."

@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Slices of samples, with NumPy alone."""
+
+import doctest
+import unittest
+from unittest import mock
+
+import numpy as np
+from scatteredisopoints import Samples, _library, contour, slice_samples, slicing
+from scatteredisopoints._cuts import rounded
+
+RANDOM = np.random.default_rng(1)
+POSITIONS = RANDOM.random((20000, 3))
+
+
+def wave(places):
+    return np.sin(4 * places[:, 0]) * places[:, 1] + places[:, 2] ** 2
+
+
+def ball(places):
+    return np.linalg.norm(places - 0.5, axis=1) - 0.3
+
+
+def area(surface):
+    a, b, c = (surface.points[surface.triangles[:, i]] for i in range(3))
+    return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()
+
+
+def rim(surface):
+    """The edges with one triangle, shape (n, 2, 3)."""
+    edges = np.sort(surface.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    edges, counts = np.unique(edges, axis=0, return_counts=True)
+    return surface.points[edges[counts == 1]]
+
+
+def distances_to(segments, places):
+    begins, ways = segments[:, 0], segments[:, 1] - segments[:, 0]
+    offsets = places[:, None] - begins
+    shares = np.clip((offsets * ways).sum(axis=2) / (ways**2).sum(axis=1), 0, 1)
+    return np.linalg.norm(offsets - shares[..., None] * ways, axis=2).min(axis=1)
+
+
+class Values(unittest.TestCase):
+    def test_fits_are_closer_than_lines(self):
+        arrays = {"wave": wave(POSITIONS), "place": POSITIONS, "tensor": POSITIONS[:, [0, 1, 2, 0]].reshape(-1, 2, 2)}
+        fits, lines = (slice_samples(POSITIONS, arrays, "y", interpolation=each) for each in ("fits", "linear"))
+        self.assertEqual(fits.points.tobytes(), lines.points.tobytes())
+        error, linear = (np.abs(each.arrays["wave"] - wave(each.points)) for each in (fits, lines))
+        self.assertLess(100 * error.mean(), linear.mean())
+        self.assertLess(error.max(), 0.01)  # at rims, too
+        for surface in (fits, lines):
+            np.testing.assert_allclose(surface.arrays["place"], surface.points, atol=1e-12)
+            np.testing.assert_allclose(surface.arrays["tensor"].reshape(-1, 4)[:, :3], surface.points, atol=1e-12)
+            np.testing.assert_allclose(surface.points[:, 1], np.ptp(POSITIONS[:, 1]) / 2 + POSITIONS[:, 1].min())
+
+    def test_types_and_values_that_are_missing(self):
+        lacking = np.where(RANDOM.random(20000) < 0.1, np.nan, wave(POSITIONS)).astype(np.float32)
+        sliced = slice_samples(POSITIONS.astype(np.float32), {
+            "lacking": lacking, "byte": np.rint(255 * POSITIONS[:, 2]).astype(np.uint8),
+            "masked": np.ma.masked_less(POSITIONS[:, 0], 0.4)}, "z")
+        found = sliced.arrays
+        self.assertEqual([sliced.points.dtype, *(each.dtype for each in found.values())],
+                         [np.float32, np.float32, np.uint8, float])
+        np.testing.assert_allclose(found["lacking"], wave(sliced.points), atol=0.02)
+        np.testing.assert_allclose(found["byte"], 127.5, atol=1.6)
+        for dtype in (np.int8, np.uint16, np.int64, np.uint64):
+            least, most = np.iinfo(dtype).min, np.iinfo(dtype).max
+            self.assertEqual(rounded(np.array([-1e30, 1.6, 1e30]), np.dtype(dtype)).tolist(), [least, 2, most])
+
+    def test_functions_that_are_no_planes(self):
+        for regularize in (True, False):
+            for interpolation, atol in (("fits", 2e-3), ("linear", 0.03)):
+                sliced = slice_samples(POSITIONS, {"wave": wave(POSITIONS), "place": POSITIONS}, function=ball,
+                                       offsets=[0, 0.1], interpolation=interpolation, regularize=regularize)
+                distances = ball(sliced.points)
+                np.testing.assert_allclose(np.minimum(abs(distances), abs(distances - 0.1)), 0, atol=1e-14)
+                np.testing.assert_allclose(sliced.arrays["place"], sliced.points, atol=1e-12)
+                np.testing.assert_allclose(sliced.arrays["wave"], wave(sliced.points), atol=atol)
+        box = slice_samples(POSITIONS, function=lambda places: np.abs(places - 0.5).max(axis=1) - 0.3)  # has edges
+        np.testing.assert_allclose(np.abs(box.points - 0.5).max(axis=1), 0.3, atol=1e-14)
+        self.assertAlmostEqual(area(box), 6 * 0.36, delta=0.1)
+
+
+class Rims(unittest.TestCase):
+    def test_a_full_block_has_a_clean_rim(self):
+        for seed in (1, 2, 3):  # the second has an edge that is strong, but for its middle
+            positions = np.random.default_rng(seed).random((200000, 3))
+            for axis, at in (("x", 0.5), ("z", 0.3)):
+                sliced = slice_samples(positions, None, axis, [at] * 3)
+                hull = slice_samples(positions, None, axis, [at] * 3, drop_gaps=False, regularize=False)
+                self.assertAlmostEqual(area(sliced) / area(hull), 1, delta=0.01)
+                self.assertLess(distances_to(rim(hull), rim(sliced)[:, 0]).max(), 0.05 * 200000 ** (-1 / 3))
+
+    def test_voids_are_left_out(self):
+        positions = POSITIONS[ball(POSITIONS) > -0.05]
+        sliced = slice_samples(positions, None, "z", [0.5] * 3)
+        self.assertAlmostEqual(area(sliced), 1 - np.pi * 0.25**2, delta=0.03)
+        self.assertAlmostEqual(area(slice_samples(positions, None, "z", [0.5] * 3, drop_gaps=False)), 1, delta=0.01)
+
+
+class KeptSamples(unittest.TestCase):
+    def test_offsets_of_a_plane_load_no_more(self):
+        values = wave(POSITIONS)
+        surface = contour(POSITIONS, values, 0.7)
+        expected = [slice_samples(POSITIONS, values, (1, 2, 3), (0.5, 0.5, at)) for at in (0.5, 0.4)]
+        samples = Samples(POSITIONS, values)
+        with mock.patch.object(_library, "set_samples", side_effect=_library.set_samples) as load:
+            for at, each in zip((0.5, 0.4), expected):
+                sliced = samples.slice((2, 4, 6), (0.5, 0.5, at))
+                for name in ("points", "triangles"):
+                    self.assertEqual(getattr(sliced, name).tobytes(), getattr(each, name).tobytes())
+                self.assertEqual(sliced.arrays["values"].tobytes(), each.arrays["values"].tobytes())
+            self.assertEqual(load.call_count, 1)
+            self.assertEqual(samples.contour(0.7).points.tobytes(), surface.points.tobytes())
+            self.assertEqual(load.call_count, 2)
+        self.assertEqual(samples.range, (values.min(), values.max()))
+        both = samples.slice("x", [0.4] * 3, {"p": POSITIONS}, offsets=[0, 0.1])
+        np.testing.assert_allclose(np.unique(both.points[:, 0].round(12)), [0.4, 0.5])
+
+    def test_samples_without_values_take_no_part(self):
+        values = np.where(POSITIONS[:, 0] < 0.5, np.nan, 1.0)
+        with self.assertWarnsRegex(RuntimeWarning, "samples are left out") as caught:
+            sliced = Samples(POSITIONS, values).slice("z")
+        self.assertEqual(caught.filename, __file__)
+        self.assertGreater(sliced.points[:, 0].min(), 0.5)
+
+
+class Calls(unittest.TestCase):
+    def test_empty_slices(self):
+        for arguments, text in (
+                ((POSITIONS, None, "x", [2, 0, 0]), "from .* and not at 2. Choose an origin"),
+                ((POSITIONS * [1, 1, 0], None, "x"), "in one plane")):
+            with self.assertWarnsRegex(RuntimeWarning, "The slice is empty: .*" + text) as caught:
+                self.assertEqual(len(slice_samples(*arguments)), 0)
+            self.assertEqual(caught.filename, __file__)
+
+    def test_wrong_arguments(self):
+        for options, error, text in (
+                (dict(normal="w"), ValueError, '"-x"'), (dict(normal=(0, 0, 0)), ValueError, "length is 0"),
+                (dict(normal=(1, 2)), ValueError, "three"), (dict(origin=(1, np.nan, 2)), ValueError, "origin.*finite"),
+                (dict(function=3), TypeError, "function"), (dict(function=ball, origin=[0, 0, 0]), TypeError, "origin"),
+                (dict(function=lambda places: places), ValueError, "one number for each"),
+                (dict(function=lambda places: np.full(len(places), np.inf)), ValueError, "not finite at 20000"),
+                (dict(interpolation="cubic"), ValueError, '"fits" or "linear"'), (dict(angle=3), TypeError, "angle"),
+                (dict(offsets=None), TypeError, "isovalues"), (dict(threads=0), ValueError, "threads")):
+            with self.subTest(text), self.assertRaisesRegex(error, text):
+                slice_samples(POSITIONS, POSITIONS, **options)
+
+    def test_threads_and_progress(self):
+        expected = slice_samples(POSITIONS, POSITIONS, threads=1)
+        fractions = []
+        found = slice_samples(POSITIONS, POSITIONS, threads=3, progress=fractions.append)
+        self.assertEqual(found.arrays["values"].tobytes(), expected.arrays["values"].tobytes())
+        self.assertEqual((fractions, fractions[-1]), (sorted(fractions), 1))
+        self.assertEqual(doctest.testmod(slicing).failed, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
