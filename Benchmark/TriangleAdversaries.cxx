@@ -152,6 +152,9 @@ std::vector<Adversary> adversaries()
   return {
     { "sphere", 1.0, [=](std::size_t n) { return withValuesOf(random(n), distanceToMiddle); },
       0.3 },
+    { "plane", 1.0,
+      [=](std::size_t n) { return withValuesOf(random(n), [](const Vector& p) { return p[2]; }); },
+      0.5 },
     { "three sheets", 1.0, random, 0.4 },
     { "many sheets", 1.0, [=](std::size_t n) { return withValuesOf(random(n), manySheets); }, 0.0 },
     { "strong clusters", 1.0, [](std::size_t n) { return clouds::clustered(n, 1); }, -4.0 },

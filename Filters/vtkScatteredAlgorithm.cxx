@@ -75,6 +75,12 @@ int vtkScatteredAlgorithm::FillOutputPortInformation(int, vtkInformation* info)
   return 1;
 }
 
+vtkSmartPointer<vtkDataObject> vtkScatteredAlgorithm::NewOutput(vtkInformationVector** inputVector)
+{
+  vtkDataObject* const input = vtkDataObject::GetData(inputVector[0]);
+  return vtkSmartPointer<vtkDataObject>::Take(input ? input->NewInstance() : nullptr);
+}
+
 vtkTypeBool vtkScatteredAlgorithm::ProcessRequest(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {

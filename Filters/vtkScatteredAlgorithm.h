@@ -125,9 +125,10 @@ protected:
   ~vtkScatteredAlgorithm() override;
 
   /**
-   * An empty output for the inputs, or null if they have none yet.
+   * An empty output for the inputs, or null if it is not known yet. By default of the type of input
+   * 0.
    */
-  virtual vtkSmartPointer<vtkDataObject> NewOutput(vtkInformationVector** inputVector) = 0;
+  virtual vtkSmartPointer<vtkDataObject> NewOutput(vtkInformationVector** inputVector);
 
   virtual int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);

@@ -69,9 +69,9 @@ vtkIdType vtkScatteredContourFilter::GetNumberOfDroppedInGaps() const
   return static_cast<vtkIdType>(this->Contouring->GetReport().droppedInGaps);
 }
 
-vtkPolyData* vtkScatteredContourFilter::GetOutput()
+vtkPolyData* vtkScatteredContourFilter::GetOutput(int port)
 {
-  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(0));
+  return vtkPolyData::SafeDownCast(this->GetOutputDataObject(port));
 }
 
 vtkSmartPointer<vtkDataObject> vtkScatteredContourFilter::NewOutput(

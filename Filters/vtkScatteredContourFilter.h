@@ -47,7 +47,8 @@ public:
   /**
    * The surface; null if the output is a composite (see SetContourBlocks()).
    */
-  vtkPolyData* GetOutput();
+  vtkPolyData* GetOutput() { return this->GetOutput(0); }
+  vtkPolyData* GetOutput(int port);
 
   ///@{
   /**

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkScatteredGradientFilter.h"
 
-#include "Core/Failure.h"
 #include "Input/vtkIsopointBlocks.h"
 #include "Output/vtkIsopointDerivatives.h"
 #include "Output/vtkIsopointPlaces.h"
@@ -34,13 +33,6 @@ vtkScatteredGradientFilter::~vtkScatteredGradientFilter() = default;
 const isopoint::SampleCounts& vtkScatteredGradientFilter::GetSampleCounts() const
 {
   return this->Probing->GetCounts();
-}
-
-vtkSmartPointer<vtkDataObject> vtkScatteredGradientFilter::NewOutput(
-  vtkInformationVector** inputVector)
-{
-  vtkDataObject* const input = vtkDataObject::GetData(inputVector[0]);
-  return vtkSmartPointer<vtkDataObject>::Take(input ? input->NewInstance() : nullptr);
 }
 
 int vtkScatteredGradientFilter::RequestData(

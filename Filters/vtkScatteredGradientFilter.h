@@ -107,7 +107,6 @@ protected:
   vtkScatteredGradientFilter();
   ~vtkScatteredGradientFilter() override;
 
-  vtkSmartPointer<vtkDataObject> NewOutput(vtkInformationVector** inputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 

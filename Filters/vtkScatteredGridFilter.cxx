@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkScatteredGridFilter.h"
 
-#include "Core/Failure.h"
+#include "Output/vtkIsopointPlaces.h"
 #include "Update/vtkIsopointProbing.h"
 
 #include "vtkDataArray.h"
@@ -13,7 +13,6 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 
 vtkStandardNewMacro(vtkScatteredGridFilter);
@@ -85,36 +84,11 @@ void vtkScatteredGridFilter::MakePlaces(vtkInformationVector**, vtkInformation* 
   int extent[6];
   outputInfo->Get(Pipeline::WHOLE_EXTENT(), whole);
   outputInfo->Get(Pipeline::UPDATE_EXTENT(), extent);
-  double spacing[3];
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double length = bounds[2 * axis + 1] - bounds[2 * axis];
-    if (this->SamplingDimensions[axis] < 1)
-    {
-      throw isopoint::UsageError("The sampling dimensions are not all positive. Set each to the"
-                                 " number of points along its axis.");
-    }
-    if (!(length >= 0.0) || !std::isfinite(length))
-    {
-      throw isopoint::UsageError("The sampling bounds are not three ascending pairs of numbers. Set"
-                                 " the least and the greatest x, y and z.");
-    }
-    if (length == 0.0)
-    {
-      whole[2 * axis + 1] = 0;
-      extent[2 * axis + 1] = std::min(extent[2 * axis + 1], 0);
-    }
-    const int steps = whole[2 * axis + 1];
-    spacing[axis] = steps > 0 ? length / steps : 1.0;
-    bounds[2 * axis] += steps > 0 ? 0.0 : 0.5 * length;
-  }
+  vtkMakeIsopointGrid(bounds, this->SamplingDimensions, whole, extent,
+    vtkImageData::SafeDownCast(vtkDataObject::GetData(outputInfo)));
   // So that the next update does not take missing layers for missing data.
   outputInfo->Set(Pipeline::WHOLE_EXTENT(), whole, 6);
   outputInfo->Set(Pipeline::UPDATE_EXTENT(), extent, 6);
-  auto* const image = vtkImageData::SafeDownCast(vtkDataObject::GetData(outputInfo));
-  image->SetOrigin(bounds[0], bounds[2], bounds[4]);
-  image->SetSpacing(spacing);
-  image->SetExtent(extent);
 }
 
 void vtkScatteredGridFilter::PrintSelf(ostream& os, vtkIndent indent)

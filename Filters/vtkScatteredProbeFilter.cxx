@@ -61,13 +61,6 @@ int vtkScatteredProbeFilter::FillInputPortInformation(int port, vtkInformation* 
   return 1;
 }
 
-vtkSmartPointer<vtkDataObject> vtkScatteredProbeFilter::NewOutput(
-  vtkInformationVector** inputVector)
-{
-  vtkDataObject* const input = vtkDataObject::GetData(inputVector[0]);
-  return vtkSmartPointer<vtkDataObject>::Take(input ? input->NewInstance() : nullptr);
-}
-
 int vtkScatteredProbeFilter::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {

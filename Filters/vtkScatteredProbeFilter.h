@@ -144,7 +144,6 @@ protected:
   explicit vtkScatteredProbeFilter(int samplesPort = 1);
   ~vtkScatteredProbeFilter() override;
 
-  vtkSmartPointer<vtkDataObject> NewOutput(vtkInformationVector** inputVector) override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;

@@ -1,4 +1,5 @@
-# Adds headings and a picture with its caption to the pages that ParaView makes of the filters' documentation:
+# Adds headings to the pages that ParaView makes of the filters' documentation, and a picture with its caption to
+# those of isosurfaces:
 #
 #   cmake -DPAGES_DIR=... -DPICTURE=... -P FormatHelp.cmake
 #
@@ -11,7 +12,9 @@ file(GLOB pages "${PAGES_DIR}/filters.*.html")
 foreach (page IN LISTS pages)
   file(READ "${page}" text)
   string(REGEX REPLACE "<p>\n *<b>([^<]+)</b>\n<p>" "<h3>\\1</h3>\n<p>" text "${text}")
-  string(REPLACE "</div>\n"
-    "</div>\n<p><img src=\"${picture}\" width=\"600\"/><br/><i>${caption}</i></p>\n" text "${text}")
+  if (page MATCHES "Isopoint|Isosurface")
+    string(REPLACE "</div>\n"
+      "</div>\n<p><img src=\"${picture}\" width=\"600\"/><br/><i>${caption}</i></p>\n" text "${text}")
+  endif ()
   file(WRITE "${page}" "${text}")
 endforeach ()

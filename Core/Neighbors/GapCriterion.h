@@ -260,8 +260,9 @@ public:
   bool drops(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& own,
     const TSample& other) const
   {
-    return this->Criterion.drops(tree, bounds, own, other) &&
-           this->isBare(tree, bounds, own, other);
+    // The other criterion takes long for edges of slivers, which are long.
+    return this->isBare(tree, bounds, own, other) &&
+           this->Criterion.drops(tree, bounds, own, other);
   }
 
 private:

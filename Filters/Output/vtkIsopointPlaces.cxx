@@ -2,19 +2,27 @@
 #include "Output/vtkIsopointPlaces.h"
 
 #include "Common/vtkIsopointArrays.h"
+#include "Core/Failure.h"
+#include "Output/vtkIsopointOutput.h"
 
+#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCharArray.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
+#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
+#include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace
 {
@@ -102,6 +110,72 @@ void vtkCopyIsopointInput(vtkDataObject* input, vtkDataObject* output)
       return made;
     });
   output->GetFieldData()->PassData(input->GetFieldData());
+}
+
+void vtkMakeIsopointLine(
+  const double begin[3], const double end[3], int pieces, vtkPolyData* output)
+{
+  const vtkIdType count = vtkIdType{ pieces } + 1;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkAllocateTuples(points->GetData(), count);
+  vtkNew<vtkDoubleArray> lengths;
+  lengths->SetName("arc_length");
+  vtkAllocateTuples(lengths, count);
+  const double length = std::hypot(end[0] - begin[0], end[1] - begin[1], end[2] - begin[2]);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const double share = static_cast<double>(i) / pieces;
+    double place[3];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      place[axis] = (1.0 - share) * begin[axis] + share * end[axis];
+    }
+    points->SetPoint(i, place);
+    lengths->SetValue(i, share * length);
+  }
+  output->SetPoints(points);
+  output->SetLines(vtkNewIsopointPolyline(count));
+  output->GetPointData()->AddArray(lengths);
+}
+
+void vtkMakeIsopointGrid(const double bounds[6], const int dimensions[3], int whole[6],
+  int extent[6], vtkImageData* output)
+{
+  double origin[3];
+  double spacing[3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double least = bounds[2 * axis];
+    const double length = bounds[2 * axis + 1] - least;
+    if (dimensions[axis] < 1)
+    {
+      throw isopoint::UsageError("The sampling dimensions are not all positive. Set each to the"
+                                 " number of points along its axis.");
+    }
+    if (!(length >= 0.0) || !std::isfinite(length))
+    {
+      throw isopoint::UsageError("The sampling bounds are not three ascending pairs of numbers. Set"
+                                 " the least and the greatest x, y and z.");
+    }
+    if (length == 0.0)
+    {
+      whole[2 * axis + 1] = 0;
+      extent[2 * axis + 1] = std::min(extent[2 * axis + 1], 0);
+    }
+    const int steps = whole[2 * axis + 1];
+    spacing[axis] = steps > 0 ? length / steps : 1.0;
+    origin[axis] = steps > 0 ? least : least + 0.5 * length;
+  }
+  if (extent[0] > extent[1] || extent[2] > extent[3] || extent[4] > extent[5])
+  {
+    // The extent of no points, for any axis.
+    constexpr int none[] = { 0, -1, 0, -1, 0, -1 };
+    std::copy_n(none, 6, extent);
+  }
+  output->SetOrigin(origin);
+  output->SetSpacing(spacing);
+  output->SetExtent(extent);
 }
 
 void vtkAddIsopointTuples(

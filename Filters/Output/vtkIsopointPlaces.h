@@ -10,6 +10,8 @@ class vtkDataArray;
 class vtkDataObject;
 class vtkDataSet;
 class vtkDataSetAttributes;
+class vtkImageData;
+class vtkPolyData;
 
 /// The arrays that a copy has.
 struct vtkIsopointPassing
@@ -26,6 +28,21 @@ void vtkCopyIsopointPlaces(
 
 /// Makes an empty output of the input's type a shallow copy of it, leaf by leaf.
 void vtkCopyIsopointInput(vtkDataObject* input, vtkDataObject* output);
+
+/// Makes a polyline of `pieces` pieces of equal length, with the array "arc_length", the distance
+/// from its begin.
+/// @throws std::bad_alloc
+void vtkMakeIsopointLine(
+  const double begin[3], const double end[3], int pieces, vtkPolyData* output);
+
+/// Makes an image without arrays.
+/// @param bounds least and greatest x, y and z
+/// @param dimensions numbers of points of the whole image
+/// @param whole extent of the whole image; axes without length are reduced to one layer
+/// @param extent to make; likewise
+/// @throws isopoint::UsageError unless bounds ascend and dimensions are positive
+void vtkMakeIsopointGrid(const double bounds[6], const int dimensions[3], int whole[6],
+  int extent[6], vtkImageData* output);
 
 /// Adds `count` tuples of an array, or the array itself if it has no more.
 /// @param attribute a vtkDataSetAttributes::AttributeTypes that the array becomes, or -1

@@ -8,8 +8,10 @@
 #include "vtkScatteredGridFilter.h"
 #include "vtkScatteredLineFilter.h"
 #include "vtkScatteredProbeFilter.h"
+#include "vtkScatteredSliceFilter.h"
 
 #include "vtkImageData.h"
+#include "vtkSphere.h"
 
 #include <cerrno>
 
@@ -172,6 +174,21 @@ TEST(OutOfMemory, TrianglesOfATetrahedralizationOfAllSamples)
       filter->SetNumberOfContours(1);
       filter->SetValue(0, 0.01);
     });
+}
+
+TEST(OutOfMemory, Slices)
+{
+  const auto samples = blocksOf({ newCloud(1200), newCloud(1300) });
+  vtkNew<vtkSphere> sphere;
+  failEach<vtkScatteredSliceFilter>(
+    [&]()
+    {
+      auto filter = vtkSmartPointer<vtkScatteredSliceFilter>::New();
+      filter->SetInputData(samples);
+      filter->SetCutFunction(sphere);
+      return filter;
+    },
+    everythingOf, 10);
 }
 
 TEST(OutOfMemory, ValuesAtPlaces)

@@ -257,7 +257,7 @@ TEST(ProbeFilters, NullPointsFollowTheStrategy)
   EXPECT_EQ(filter->GetInterpolation(), Probe::BLEND);
 }
 
-TEST(ProbeFilters, MessagesNameWhatIsMissing)
+TEST(ProbeFilters, MessagesNameTheCause)
 {
   const auto places = newPlaces();
   const auto cloud = newCloud(1000);
@@ -403,6 +403,16 @@ TEST(ProbeFilters, GridFillsTheBoundsOfTheSamples)
   filter->GetOutput()->GetDimensions(dimensions);
   EXPECT_EQ(dimensions[2], 1);
   EXPECT_EQ(filter->GetOutput()->GetBounds()[4], 3.0);
+  filter->SetSamplingDimensions(6, 5, 40); // pieces divide the longest axis
+  vtkIdType inPieces = 0;
+  for (int piece = 0; piece < 3; ++piece)
+  {
+    filter->Modified(); // the pieces of a grid whose layer is not known yet
+    filter->UpdatePiece(piece, 3, 0);
+    EXPECT_EQ(filter->GetErrorCode(), 0u);
+    inPieces += filter->GetOutput()->GetNumberOfCells();
+  }
+  EXPECT_EQ(inPieces, 5 * 4);
   filter->UseInputBoundsOff();
   filter->SetSamplingBounds(0.0, 1.0, 1.0, 0.0, 0.0, 1.0);
   expectError(filter, "ascending");

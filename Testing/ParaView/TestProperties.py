@@ -13,6 +13,7 @@ import numpy as np
 import scatteredisopoints
 from paraview import servermanager, simple
 from scripting import SPLATS, check, load, vtk_data
+from vtkmodules.vtkCommonDataModel import vtkPlane
 
 LARGE = {"IntVectorProperty": 2**31 - 1, "DoubleVectorProperty": 1e100}
 
@@ -51,6 +52,8 @@ def check_range(name, element, accepts):
     if element.tag == "StringVectorProperty":
         return
     low, high = limits(element)
+    if low is None and high is None:
+        return
     check(low is not None and accepts(low), f"{name}: the least value, {low}")
     check(accepts(LARGE[element.tag] if high is None else high), f"{name}: the greatest, {high}")
     if element.find("BooleanDomain") is None:
@@ -62,15 +65,22 @@ def filter_accepts(instance, name):
     """A value outside of the range is set to the nearest one, or is an error at the update."""
     positions = np.random.default_rng(1).random((50, 3))
     instance.SetInputData(vtk_data.cloud_of(positions, positions[:, 0]))
+    if hasattr(instance, "SetSourceData"):
+        instance.SetSourceData(vtk_data.cloud_of(positions, positions))
+    elif instance.IsA("vtkScatteredGradientFilter"):
+        instance.GetInput().GetPointData().SetScalars(vtk_data.named("vectors", positions))
     if hasattr(instance, "SetValue"):
         instance.SetValue(0, 0.5)
+    if hasattr(instance, "SetCutFunction"):
+        instance.SetCutFunction(vtkPlane())
     errors = []
     instance.AddObserver("ErrorEvent", lambda *_: errors.append(1))
 
     def accepts(value):
         errors.clear()
         getattr(instance, "Set" + name)(value)
-        instance.Update()
+        if name != "Resolution":  # of as many points
+            instance.Update()
         return getattr(instance, "Get" + name)() == value and not errors
 
     return accepts
@@ -79,14 +89,15 @@ def filter_accepts(instance, name):
 def check_filter(root, documented):
     """documented: the defaults in the tables of the document, by property."""
     proxy = root.find(".//*[@class]")
-    contours = proxy.get("name") != "IsopointSplatPolygons"
+    contours = proxy.get("name") in ("ScatteredIsopoints", "ScatteredIsosurface")
     filter_class = getattr(scatteredisopoints, proxy.get("class"))
     names = []
     for name, element, name_in_class, default in vector_properties(root):
         value = getattr(filter_class(), "Get" + name_in_class)()
-        check(value == default, f"{name}: the default {default}, in the class {value}")
+        if name not in ("ResultArrayName", "QCriterionArrayName"):  # named as in vtkGradientFilter, and as in ParaView
+            check(value == default, f"{name}: the default {default}, in the class {value}")
         check_range(name, element, filter_accepts(filter_class(), name_in_class))
-        check(not contours or name in documented, f"{name} in {sorted(documented)}")
+        check(name in documented, f"{name} in {sorted(documented)}")
         if contours and element.find("EnumerationDomain") is None:
             text = documented[name].split()[0]
             check({"on": 1.0, "off": 0.0}.get(text) == default or text == f"{default:g}",
@@ -149,7 +160,7 @@ load(plugin)
 with open(document) as text:
     documented = dict(re.findall(r"^\| `(\w+)`[^|]*\| ([^|]+) \|", text.read(), re.MULTILINE))
 of_representation, *of_filters = roots = [ElementTree.parse(file).getroot() for file in files]
-check(len(of_filters) == 3, "all filters")
+check(len(of_filters) == 8, "all filters")
 for of_filter in of_filters:
     check_filter(of_filter, documented)
 check_representation(of_representation)

@@ -16,12 +16,13 @@ import unittest
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkStringArray, vtkUnsignedCharArray
-from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkDataSetAttributes, vtkImageData, vtkPolyData
+from vtkmodules.vtkCommonDataModel import (
+    vtkDataObject, vtkDataSetAttributes, vtkImageData, vtkPlane, vtkPolyData, vtkSphere)
 from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 from scatteredisopoints import (
     vtkScatteredGradientFilter, vtkScatteredGridFilter, vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter,
-    vtkScatteredLineFilter, vtkScatteredProbeFilter)
+    vtkScatteredLineFilter, vtkScatteredProbeFilter, vtkScatteredSliceFilter)
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../Python"))
 from vtk_data import blocks_of, centers_in, cloud_of, named, set_all  # noqa: E402
@@ -279,6 +280,24 @@ class RanksTest(RanksTestCase):
             output, image = here.GetOutput(), alone.GetOutput()
             rows = [image.FindPoint(output.GetPoint(i)) for i in range(output.GetNumberOfPoints())]
             self.same_arrays(output, image, rows)
+
+    def test_slices(self):
+        """All triangles, with the arrays at their corners, are those of one process."""
+        points = uniform(3000, 9)
+        numbers, mine = np.arange(len(points)), owners(len(points)) == RANK
+        data, whole = poly_data(points[mine], numbers[mine]), poly_data(points, numbers)
+        for function in (set_all(vtkPlane(), Normal=(1, 2, 3), Origin=(0.5, 0.5, 0.4)),
+                         set_all(vtkSphere(), Center=(0.5, 0.5, 0.5), Radius=0.3)):
+            for options in (dict(), dict(Interpolation=1, Regularize=0)):
+                here, alone = (set_all(vtkScatteredSliceFilter(), InputData=source, CutFunction=function,
+                                       Controller=controller, **options)
+                               for source, controller in ((data, RANKS), (whole, None)))
+                here.UpdatePiece(RANK, SIZE, 0)
+                alone.Update()
+                found, (_, expected) = gather(described(here.GetOutput())[1]), described(alone.GetOutput())
+                if RANK == 0:
+                    self.assertGreater(len(expected), 100)
+                    self.assertEqual(sorted(sum(found, [])), sorted(expected))
 
     @unittest.skipIf(SIZE == 1, "one rank has one set of options")
     def test_different_options_for_places_are_an_error(self):

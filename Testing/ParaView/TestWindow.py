@@ -102,12 +102,13 @@ def search_finds_each_filter_once():
 def an_empty_result_is_explained():
     """One message names the filter to use instead. From a grid there is no message."""
     points = """
-isopoints = simple.Calculator(Input=simple.PointSource(NumberOfPoints=500), Function="coordsX", ResultArrayName="x")
+points = simple.PointSource(NumberOfPoints=500, Radius=1)
+isopoints = simple.Calculator(Input=points, Function="coordsX", ResultArrayName="x")
 isopoints.UpdatePipeline()
 """
     for name, more, remedy, count in (
             ("Slice", "", "Scattered Isosurface", 1), ("Slice", WAVELET, "", 0),
-            ("Slice", points, "Scattered Probe", 1), ("Gradient", points, "Scattered Gradient", 1),
+            ("Slice", points, "Scattered Slice", 1), ("Gradient", points, "Scattered Gradient", 1),
             ("Plot Over Line", points, "Scattered Line", 1), ("Resample To Image", points, "Scattered Grid", 1),
             ("Gradient", WAVELET, "", 0)):
         _, said = play([choose(name), APPLY], more)

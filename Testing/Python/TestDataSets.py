@@ -8,7 +8,7 @@ import unittest
 import warnings
 
 import numpy as np
-from scatteredisopoints import Samples, contour, contouring, slice_samples
+from scatteredisopoints import Samples, contour, contouring, slice_samples, vtkScatteredSliceFilter
 from vtk_data import amr_of, assert_same, blocks_of, centers_in, cloud_of, named, points_of, positions_in, set_all
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkBitArray, vtkMath
@@ -315,6 +315,20 @@ class Slices(unittest.TestCase):
             plane = set_all(vtkPlane(), Origin=(0.2, 0.4, 0.6), Normal=(0, 0, 1), Transform=transform)
             sliced = slice_samples(data, function=plane, offsets=0.05)
             self.assertLess(max(abs(plane.FunctionValue(point) - 0.05) for point in sliced.points.tolist()), 1e-6)
+
+    def test_the_filter_has_the_same_bytes(self):
+        for data in (prepared(cloud(dtype=np.float32))[0], prepared(cloud())[0], prepared(image())[0]):
+            center = data.GetCenter()
+            for function in (set_all(vtkPlane(), Normal=(1, 2, 3), Origin=center),
+                             set_all(vtkCylinder(), Center=center, Radius=data.GetLength() / 8)):
+                for interpolation, regularize in ((0, True), (1, False)):
+                    filtered = set_all(vtkScatteredSliceFilter(), InputDataObject=data, CutFunction=function,
+                                       Interpolation=interpolation, Regularize=regularize)
+                    filtered.Update()
+                    sliced = slice_samples(data, function=function, regularize=regularize,
+                                           interpolation=("fits", "linear")[interpolation])
+                    self.assertGreater(len(sliced), 100)
+                    assert_same(self, filtered.GetOutput(), sliced.polydata)
 
     def test_all_arrays_of_points_or_cells(self):
         data, _ = prepared(image())

@@ -21,7 +21,7 @@ ISOPOINTS, ISOSURFACE = _vtk.vtkScatteredIsopointFilter, _vtk.vtkScatteredIsosur
 
 # What the filters in Python do not have: ranks, threads of VTK, and what VTK's own classes have for C++.
 MISSING = {"SetController", "GetController", "SetUseGlobalController", "SetUseAllCores",
-           "GetUseAllCores", "UseAllCoresOn", "UseAllCoresOff"}
+           "GetUseAllCores", "UseAllCoresOn", "UseAllCoresOff", "AddInputData"}
 
 
 def own_methods(class_):
