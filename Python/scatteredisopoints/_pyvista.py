@@ -21,6 +21,7 @@ from ._options import hint, switch
 from ._polydata import as_vtk
 from ._progress import Progress, shown_progress
 from ._samples import Samples
+from ._slices import sliced
 from ._splats import polygons_of
 
 
@@ -369,9 +370,8 @@ class ScatteredAccessor:
         samples, arrays = self._samples_with(scalars, preference, progress, threads)
         if origin is None and function is None:
             origin = _datasets.bounds_of(self._dataset).mean(axis=1)
-        arrays = None if scalars is None else arrays  # all of them
-        result = samples._slice(normal, origin, arrays, function, offsets, interpolation, threads, progress, options,
-                                stacklevel=4).polydata
+        result = sliced(samples, normal, origin, None if scalars is None else arrays, function, offsets, interpolation,
+                        threads, progress, options, stacklevel=4).polydata
         return result.contour() if switch("contour", contour) and result.n_cells else result
 
     def compute_derivative(

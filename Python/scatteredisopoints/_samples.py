@@ -17,12 +17,12 @@ import numpy as np
 from . import _datasets, _library
 from ._arrays import (
     are_names, as_numpy, describe_masked, further_arrays, isovalues_of, positions_of, readable, tensors, values_of)
-from ._cuts import Cut, Normal, describe_empty, make_cut, rounded, shares_to_zero
+from ._cuts import Normal
 from ._interpolator import Interpolator
 from ._isosurface import Isosurface
-from ._options import (
-    CONSTANTS, hint, make_options, make_probe_options, make_slice_options, switch, thread_count, with_fits)
-from ._progress import Progress, part, shown_progress
+from ._options import CONSTANTS, hint, make_options, make_probe_options, switch, thread_count
+from ._progress import Progress, shown_progress
+from ._slices import sliced
 
 _VALUES = "values"
 """The key of the samples' own values: see Samples._hold()."""
@@ -318,103 +318,8 @@ class Samples:
         threads
             None stands for the number that the object was made with.
         """
-        return self._slice(normal, origin, arrays, function, offsets, interpolation, threads, progress, options,
-                           stacklevel=3)
-
-    def _slice(self, normal, origin, arrays, function, offsets, interpolation, threads, progress, options,
-               stacklevel) -> Isosurface:
-        fits = with_fits(interpolation)
-        cut, level = make_cut(normal, origin, function, self._center_of_bounds)
-        levels = [level + offset for offset in isovalues_of(offsets)]
-        chosen = make_slice_options(options)
-        of_samples = self._sliced_arrays(arrays)
-        threads = self._threads if threads is None else threads
-        most_threads = thread_count(threads)
-        with shown_progress(progress, "Slicing") as report:
-            with self._exclusive():
-                self._require_samples()
-                _library.run(_library.set_threads, self._extractor, most_threads)
-                at_samples = self._hold_cut(cut, part(report, 0.0, 0.3))
-                surface = self._surface(levels, chosen, {"progress": part(report, 0.3, 0.6)})
-                held_range = self._held_range()
-            points = _library.view(surface, _library.POINTS)
-            found = self._interpolated(surface, of_samples, None)
-            if not cut.is_plane and len(points):
-                points = self._moved_onto(cut, at_samples, surface, points, of_samples, found)
-            if fits and len(points):
-                self._fit(points, of_samples, found, threads, part(report, 0.6, 1.0))
-        texts = list(self._describe_left_out())
-        if arrays is None and self._differing:
-            texts.append(_datasets.describe_differing(self._differing))
-        if len(points) == 0:
-            text = describe_empty(levels, *held_range, _library.get_dropped_count(surface), cut.is_plane)
-            texts = [*texts, *([] if text is None else [text])]
-        for text in texts:
-            warnings.warn(text, RuntimeWarning, stacklevel=stacklevel)
-        return Isosurface(points, _library.view(surface, _library.TRIANGLES), found, {}, self._maker, threads=threads)
-
-    def _sliced_arrays(self, arrays: Any) -> dict[str, Any]:
-        """The arrays of a slice by name."""
-        if isinstance(arrays, Mapping) or are_names(arrays):
-            many = arrays if isinstance(arrays, Mapping) else dict(zip(arrays, arrays))
-        elif arrays is not None:
-            many = {arrays if isinstance(arrays, str) else "values": arrays}
-        else:
-            return {**({} if self._values is None else {self._maker.scalars or "values": self._values}),
-                    **(self._arrays or {})}
-        return {name: self._numbers_of(array, str(name)) for name, array in many.items()}
-
-    def _center_of_bounds(self) -> np.ndarray:
-        if self._center is None:
-            positions = as_numpy(self._positions)
-            is_finite = np.isfinite(positions)
-            box = [find(positions, axis=0, where=is_finite, initial=initial)
-                   for find, initial in ((np.min, np.inf), (np.max, -np.inf))]
-            self._center = np.where(is_finite.any(axis=0), 0.5 * box[0] + 0.5 * box[1], 0.0).astype(np.float64)
-        return self._center
-
-    def _hold_cut(self, cut: Cut, report: Any) -> Optional[np.ndarray]:
-        """Makes the values of a function those that the extractor holds. Returns them, unless it had them."""
-        if cut.key is not None and self._held == cut.key:
-            return None
-        positions = self._current("positions", self._positions).astype(np.float64, copy=False)
-        at_samples = cut.at(positions)
-        lacking = np.count_nonzero(~np.isfinite(at_samples) & np.isfinite(positions).all(axis=1))
-        if lacking:
-            raise ValueError(f"function is not finite at {lacking} of {self._count} samples")
-        left_out = [self._excluded]
-        if self._values is not None:  # the same samples as for their isosurfaces, whose tree is kept
-            left_out += [self._masked, ~np.isfinite(as_numpy(self._values))]
-        self._hold(cut.key, at_samples, left_out, {"progress": report})
-        return at_samples
-
-    def _moved_onto(self, cut, at_samples, surface, points, of_samples, found) -> np.ndarray:
-        """Moves vertices towards the sample at an end of their edge on the other side of the function, as far as it
-        crosses zero, and arrays with them."""
-        levels, edges = (_library.view(surface, each) for each in (_library.ISOVALUES, _library.EDGES))
-        dtype, points = points.dtype, points.astype(np.float64)
-        before = cut.at(points) - levels
-        is_second = (at_samples[edges[:, 1]] >= levels) != (before >= 0.0)
-        ends = np.where(is_second, edges[:, 1], edges[:, 0])
-        ways = self._current("positions", self._positions)[ends] - points
-        shares = shares_to_zero(
-            lambda which, share: cut.at(points[which] + share[:, None] * ways[which]) - levels[which],
-            before, at_samples[ends] - levels)
-        for name, array in of_samples.items():
-            if self._maker.uses.get(name) != _datasets.PEDIGREE_IDS:
-                share = shares.reshape(-1, *[1] * (found[name].ndim - 1))
-                at_ends = readable(name, self._current(name, array))[ends]
-                found[name] = rounded((1.0 - share) * found[name] + share * at_ends, found[name].dtype)
-        return (points + shares[:, None] * ways).astype(dtype)
-
-    def _fit(self, points, of_samples, found, threads, report) -> None:
-        """Replaces arrays at points by those of fits, where there are some. Fits extrapolate at rims: edges of slivers
-        on the convex hull are far too long for linear interpolation."""
-        fitted = {name: self._numbers_of(array, name) for name, array in of_samples.items()
-                  if self._maker.uses.get(name) != _datasets.PEDIGREE_IDS}
-        values, _, _ = self._probed(points, fitted, make_probe_options("BLEND", None), False, threads, report)
-        for name, numbers in values.items():
-            found[name] = np.where(np.isfinite(numbers), rounded(numbers, found[name].dtype), found[name])
+        return sliced(self, normal, origin, arrays, function, offsets, interpolation, threads, progress, options,
+                      stacklevel=3)
 
     def probe(
         self,

@@ -9,6 +9,7 @@ from ._cuts import Normal
 from ._isosurface import Isosurface
 from ._progress import Progress, part, shown_progress
 from ._samples import Samples
+from ._slices import sliced
 from .probing import samples_for
 
 
@@ -85,5 +86,5 @@ def slice_samples(
     """
     with shown_progress(progress, "Slicing") as report:
         samples = Samples._of(samples_for(positions, arrays), threads, progress=part(report, 0.0, 0.2))
-        return samples._slice(normal, origin, arrays, function, offsets, interpolation, None, part(report, 0.2, 1.0),
-                              options, stacklevel=3)
+        return sliced(samples, normal, origin, arrays, function, offsets, interpolation, None, part(report, 0.2, 1.0),
+                      options, stacklevel=3)

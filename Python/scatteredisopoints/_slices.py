@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How Samples are sliced; docs/triangles.md in the source defines the result."""
+
+from __future__ import annotations
+
+import warnings
+from typing import TYPE_CHECKING, Any, Mapping, Optional
+
+import numpy as np
+
+from . import _datasets, _library
+from ._arrays import are_names, as_numpy, isovalues_of, readable
+from ._cuts import Cut, Normal, describe_empty, make_cut, rounded, shares_to_zero
+from ._isosurface import Isosurface
+from ._options import make_probe_options, make_slice_options, thread_count, with_fits
+from ._progress import Progress, part, shown_progress
+
+if TYPE_CHECKING:
+    from ._samples import Samples
+
+
+def sliced(samples: Samples, normal: Normal, origin: Any, arrays: Any, function: Any, offsets: Any, interpolation: Any,
+           threads: Optional[int], progress: Progress, options: Mapping[str, Any], stacklevel: int) -> Isosurface:
+    """Samples.slice()."""
+    fits = with_fits(interpolation)
+    cut, level = make_cut(normal, origin, function, lambda: _center_of_bounds(samples))
+    levels = [level + offset for offset in isovalues_of(offsets)]
+    chosen = make_slice_options(options)
+    of_samples = _arrays_of(samples, arrays)
+    threads = samples._threads if threads is None else threads
+    most_threads = thread_count(threads)
+    with shown_progress(progress, "Slicing") as report:
+        with samples._exclusive():
+            samples._require_samples()
+            _library.run(_library.set_threads, samples._extractor, most_threads)
+            at_samples = _hold_cut(samples, cut, part(report, 0.0, 0.3))
+            surface = samples._surface(levels, chosen, {"progress": part(report, 0.3, 0.6)})
+            held_range = samples._held_range()
+        points = _library.view(surface, _library.POINTS)
+        found = samples._interpolated(surface, of_samples, None)
+        if not cut.is_plane and at_samples is not None and len(points):
+            points = _moved_onto(samples, cut, at_samples, surface, points, of_samples, found)
+        if fits and len(points):
+            _fit(samples, points, of_samples, found, threads, part(report, 0.6, 1.0))
+    texts = list(samples._describe_left_out())
+    if arrays is None and samples._differing:
+        texts.append(_datasets.describe_differing(samples._differing))
+    if len(points) == 0:
+        text = describe_empty(levels, *held_range, _library.get_dropped_count(surface), cut.is_plane)
+        texts = [*texts, *([] if text is None else [text])]
+    for text in texts:
+        warnings.warn(text, RuntimeWarning, stacklevel=stacklevel)
+    return Isosurface(points, _library.view(surface, _library.TRIANGLES), found, {}, samples._maker, threads=threads)
+
+
+def _arrays_of(samples: Samples, arrays: Any) -> dict[str, Any]:
+    """The arrays of a slice by name."""
+    if isinstance(arrays, Mapping) or are_names(arrays):
+        many = arrays if isinstance(arrays, Mapping) else dict(zip(arrays, arrays))
+    elif arrays is not None:
+        many = {arrays if isinstance(arrays, str) else "values": arrays}
+    else:
+        return {**({} if samples._values is None else {samples._maker.scalars or "values": samples._values}),
+                **(samples._arrays or {})}
+    return {name: samples._numbers_of(array, str(name)) for name, array in many.items()}
+
+
+def _center_of_bounds(samples: Samples) -> np.ndarray:
+    if samples._center is None:
+        positions = as_numpy(samples._positions)
+        is_finite = np.isfinite(positions)
+        box = [find(positions, axis=0, where=is_finite, initial=initial)
+               for find, initial in ((np.min, np.inf), (np.max, -np.inf))]
+        samples._center = np.where(is_finite.any(axis=0), 0.5 * box[0] + 0.5 * box[1], 0.0).astype(np.float64)
+    return samples._center
+
+
+def _hold_cut(samples: Samples, cut: Cut, report: Any) -> Optional[np.ndarray]:
+    """Makes the values of a function those that the extractor holds. Returns them, unless it had them."""
+    if cut.key is not None and samples._held == cut.key:
+        return None
+    positions = samples._current("positions", samples._positions).astype(np.float64, copy=False)
+    at_samples = cut.at(positions)
+    lacking = np.count_nonzero(~np.isfinite(at_samples) & np.isfinite(positions).all(axis=1))
+    if lacking:
+        raise ValueError(f"function is not finite at {lacking} of {samples._count} samples")
+    left_out = [samples._excluded]
+    if samples._values is not None:  # the same samples as for their isosurfaces, whose tree is kept
+        left_out += [samples._masked, ~np.isfinite(as_numpy(samples._values))]
+    samples._hold(cut.key, at_samples, left_out, {"progress": report})
+    return at_samples
+
+
+def _moved_onto(samples: Samples, cut: Cut, at_samples: np.ndarray, surface: _library.Surface, points: np.ndarray,
+                of_samples: Mapping[str, Any], found: dict[str, np.ndarray]) -> np.ndarray:
+    """Moves vertices towards the sample at an end of their edge on the other side of the function, as far as it
+    crosses zero, and arrays with them."""
+    levels, edges = (_library.view(surface, each) for each in (_library.ISOVALUES, _library.EDGES))
+    dtype, points = points.dtype, points.astype(np.float64)
+    before = cut.at(points) - levels
+    is_second = (at_samples[edges[:, 1]] >= levels) != (before >= 0.0)
+    ends = np.where(is_second, edges[:, 1], edges[:, 0])
+    ways = samples._current("positions", samples._positions)[ends] - points
+    shares = shares_to_zero(
+        lambda which, share: cut.at(points[which] + share[:, None] * ways[which]) - levels[which],
+        before, at_samples[ends] - levels)
+    for name, array in of_samples.items():
+        if samples._maker.uses.get(name) != _datasets.PEDIGREE_IDS:
+            share = shares.reshape(-1, *[1] * (found[name].ndim - 1))
+            at_ends = readable(name, samples._current(name, array))[ends]
+            found[name] = rounded((1.0 - share) * found[name] + share * at_ends, found[name].dtype)
+    return (points + shares[:, None] * ways).astype(dtype)
+
+
+def _fit(samples: Samples, points: np.ndarray, of_samples: Mapping[str, Any], found: dict[str, np.ndarray],
+         threads: Optional[int], report: Any) -> None:
+    """Replaces arrays at points by those of fits, where there are some. Fits extrapolate at rims: edges of slivers
+    on the convex hull are far too long for linear interpolation."""
+    fitted = {name: samples._numbers_of(array, name) for name, array in of_samples.items()
+              if samples._maker.uses.get(name) != _datasets.PEDIGREE_IDS}
+    values, _, _ = samples._probed(points, fitted, make_probe_options("BLEND", None), False, threads, report)
+    for name, numbers in values.items():
+        found[name] = np.where(np.isfinite(numbers), rounded(numbers, found[name].dtype), found[name])
