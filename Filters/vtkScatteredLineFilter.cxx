@@ -39,10 +39,10 @@ void vtkScatteredLineFilter::MakePlaces(vtkInformationVector**, vtkInformation* 
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
   auto* const line = vtkPolyData::SafeDownCast(vtkDataObject::GetData(outputInfo));
-  if (outputInfo->Get(Pipeline::UPDATE_PIECE_NUMBER()) <= 0)
-  {
-    vtkMakeIsopointLine(this->Point1, this->Point2, this->Resolution, line);
-  }
+  const bool isFirst = outputInfo->Get(Pipeline::UPDATE_PIECE_NUMBER()) <= 0;
+  // All pieces have the same arrays.
+  vtkMakeIsopointLine(
+    this->Point1, this->Point2, isFirst ? vtkIdType{ this->Resolution } + 1 : 0, line);
 }
 
 void vtkScatteredLineFilter::PrintSelf(ostream& os, vtkIndent indent)

@@ -113,9 +113,8 @@ void vtkCopyIsopointInput(vtkDataObject* input, vtkDataObject* output)
 }
 
 void vtkMakeIsopointLine(
-  const double begin[3], const double end[3], int pieces, vtkPolyData* output)
+  const double begin[3], const double end[3], vtkIdType count, vtkPolyData* output)
 {
-  const vtkIdType count = vtkIdType{ pieces } + 1;
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   vtkAllocateTuples(points->GetData(), count);
@@ -125,7 +124,7 @@ void vtkMakeIsopointLine(
   const double length = std::hypot(end[0] - begin[0], end[1] - begin[1], end[2] - begin[2]);
   for (vtkIdType i = 0; i < count; ++i)
   {
-    const double share = static_cast<double>(i) / pieces;
+    const double share = static_cast<double>(i) / static_cast<double>(count - 1);
     double place[3];
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -135,7 +134,10 @@ void vtkMakeIsopointLine(
     lengths->SetValue(i, share * length);
   }
   output->SetPoints(points);
-  output->SetLines(vtkNewIsopointPolyline(count));
+  if (count > 0)
+  {
+    output->SetLines(vtkNewIsopointPolyline(count));
+  }
   output->GetPointData()->AddArray(lengths);
 }
 

@@ -29,11 +29,11 @@ void vtkCopyIsopointPlaces(
 /// Makes an empty output of the input's type a shallow copy of it, leaf by leaf.
 void vtkCopyIsopointInput(vtkDataObject* input, vtkDataObject* output);
 
-/// Makes a polyline of `pieces` pieces of equal length, with the array "arc_length", the distance
-/// from its begin.
+/// Makes a polyline of `count` points, none or at least two, at equal distances, with the array
+/// "arc_length", the distance from its begin.
 /// @throws std::bad_alloc
 void vtkMakeIsopointLine(
-  const double begin[3], const double end[3], int pieces, vtkPolyData* output);
+  const double begin[3], const double end[3], vtkIdType count, vtkPolyData* output);
 
 /// Makes an image without arrays.
 /// @param bounds least and greatest x, y and z

@@ -444,6 +444,7 @@ TEST(ProbeFilters, LineHasItsLengthAsArray)
   EXPECT_EQ(line->GetPointData()->GetArray("vtkValidPointMask")->GetTuple1(6), 1.0);
   filter->UpdatePiece(1, 2, 0);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_TRUE(filter->GetOutput()->GetPointData()->HasArray("arc_length")) << "as other pieces";
 }
 
 TEST(ProbeFilters, GradientsOfAffineVectorsAreExact)

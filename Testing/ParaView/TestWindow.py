@@ -91,9 +91,9 @@ def search_finds_each_filter_once():
         for typed, found, name in ((words, both, NAMES[0]), (both[1], both[1:], NAMES[1])):
             shown, _ = play([*search(PARAVIEW, typed, *found), APPLY], WAVELET)
             check(name.replace(" ", "") + ("2" if name == NAMES[0] else "1") in shown, f"{name} was created")
-    for words, found, name in (
-            ("resample samples", ("Resample samples to an image", "Resample samples with a data set"), "Scattered Grid"),
-            ("scattered gradient", ("Scattered Gradient",), "Scattered Gradient")):
+    grids = "Resample samples to an image", "Resample samples with a data set"
+    for words, found, name in (("resample samples", grids, "Scattered Grid"),
+                               ("scattered gradient", ("Scattered Gradient",), "Scattered Gradient")):
         shown, _ = play([*search(PARAVIEW, words, *found), APPLY], WAVELET)
         check(any(each.startswith(name.replace(" ", "")) for each in shown), f"{name} was created: {shown}")
     play([*search(PARAVIEW, "plot samples", "Plot samples over a line"), APPLY], WAVELET)  # in a view of its own
@@ -113,7 +113,7 @@ isopoints.UpdatePipeline()
             ("Gradient", WAVELET, "", 0)):
         _, said = play([choose(name), APPLY], more)
         explained = [line for line in others_of(said).splitlines() if "yields nothing" in line]
-        check(len(explained) == count and all(remedy in line for line in explained), f"{name}: explained by {explained}")
+        check(len(explained) == count and all(remedy in line for line in explained), f"{name}: {explained}")
 
 
 def empty_results_keep_splats():
