@@ -32,12 +32,11 @@ _COMPILED = ("vtkScatteredIsopointFilters", "vtkScatteredIsopointRendering",
              "vtkScatteredIsopointRayTracing")
 _MODULES = {
     "ray_trace": ("ray_tracing",),
-    **dict.fromkeys(("vtkIsopointSplatPolygons", "vtkScatteredIsopointFilter", "vtkScatteredIsosurfaceFilter"),
-                    (*_COMPILED, "_vtk")),
+    **dict.fromkeys(("vtkIsopointSplatPolygons", "vtkScatteredGradientFilter", "vtkScatteredGridFilter",
+                     "vtkScatteredIsopointFilter", "vtkScatteredIsosurfaceFilter", "vtkScatteredLineFilter",
+                     "vtkScatteredProbeFilter", "vtkScatteredSliceFilter"), (*_COMPILED, "_vtk")),
     **dict.fromkeys(("vtkIsopointPolygonMapper", "vtkIsopointRayTracer", "vtkIsopointSplatMapper",
-                     "vtkScatteredAlgorithm", "vtkScatteredContourFilter", "vtkScatteredGradientFilter",
-                     "vtkScatteredGridFilter", "vtkScatteredLineFilter", "vtkScatteredProbeFilter",
-                     "vtkScatteredSliceFilter"), _COMPILED)}
+                     "vtkScatteredAlgorithm", "vtkScatteredContourFilter"), _COMPILED)}
 
 if TYPE_CHECKING:
     ray_trace: Any

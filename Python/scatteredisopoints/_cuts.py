@@ -92,9 +92,16 @@ def make_cut(normal: Normal, origin: Any, function: Any, center: Callable[[], np
         return plane, float(plane.at(origin[None])[0])
     if origin is not None:
         raise TypeError("origin goes with a normal, not with a function")
+    return cut_by(function)
+
+
+def cut_by(function: Any) -> tuple[Cut, float]:
+    """What slices by a function, and the level of the slice. Raises TypeError if it is none."""
     if is_implicit_function(function) and function.IsA("vtkPlane") and function.GetTransform() is None:
-        plane = Plane(np.array(function.GetNormal()))
-        return plane, float(plane.at(np.array([function.GetOrigin()]))[0])
+        # Subclasses, such as ParaView's, may have an offset besides.
+        zero, gradient = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
+        function.EvaluateGradient(zero, gradient)
+        return Plane(np.array(gradient)), -function.EvaluateFunction(zero)
     if not (callable(function) or is_implicit_function(function)):
         raise TypeError(f"function cannot be {function!r}: it is a function of places, shape (n, 3), or a"
                         " vtkImplicitFunction")
@@ -162,20 +169,31 @@ def shares_to_zero(values: Callable[[np.ndarray, np.ndarray], np.ndarray], begin
 
 
 def rounded(numbers: np.ndarray, dtype: np.dtype) -> np.ndarray:
-    """Numbers in a type, integers rounded to the nearest that it has."""
+    """Numbers in a type, integers rounded to the nearest that it has, halves away from zero."""
     if dtype.kind == "f":
         return numbers.astype(dtype)
     limits = np.iinfo(dtype)
+    held = np.clip(numbers, float(limits.min), float(limits.max))
+    whole = np.trunc(held)
     with np.errstate(invalid="ignore"):
-        nearest = np.rint(np.clip(numbers, float(limits.min), float(limits.max))).astype(dtype)
+        nearest = (whole + np.where(np.abs(held - whole) >= 0.5, np.sign(held), 0.0)).astype(dtype)
     return np.where(numbers >= float(limits.max), limits.max, nearest).astype(dtype)
 
 
-def describe_empty(levels: list[float], least: float, greatest: float, dropped: int, is_plane: bool) -> Optional[str]:
-    """Why slices at these levels are all empty, for samples with values from the least to the greatest."""
+def describe_empty(levels: list[float], least: float, greatest: float, dropped: int, is_plane: bool,
+                   beside: Optional[str] = None) -> Optional[str]:
+    """Why slices at these levels are all empty, for samples with values from the least to the greatest.
+
+    Parameters
+    ----------
+    beside
+        A text for levels that are not between the samples' values, instead of one with these values.
+    """
     if least > greatest or math.isnan(least):
         return None
     if not any(least < level <= greatest for level in levels):
+        if beside is not None:
+            return beside
         at = ", ".join(f"{level:g}" for level in levels[:5]) or "no level"
         return (f"The slice is empty: the function is from {least:g} to {greatest:g} at the samples, and not at {at}."
                 + (" Choose an origin between the samples." if is_plane else " Choose other offsets."))

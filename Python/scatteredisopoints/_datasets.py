@@ -7,7 +7,7 @@ points and cells are samples.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Callable, Iterable, Iterator, Optional, Sequence
 
 import numpy as np
@@ -38,6 +38,16 @@ class DataSamples:
     name: str = ""  # of the values, for messages
     association: int = POINT  # of the first block
     are_float: bool = True  # whether the values of all blocks are float32, and isovalues in the output too
+    parts: list[Part] = field(default_factory=list)  # one for each block of a data object
+
+
+@dataclass(frozen=True)
+class Part:
+    """Which points or cells of a data object are a block of samples."""
+
+    leaf: int  # its number among leaves()
+    association: int
+    count: int
 
 
 def data_object(source: Any) -> Any:
@@ -103,7 +113,8 @@ def state_of(data: Any) -> tuple:
 
 
 def samples_of(
-    source: Any, values: Any, associations: Optional[tuple[int, ...]] = None, attribute: int = SCALARS
+    source: Any, values: Any, associations: Optional[tuple[int, ...]] = None, attribute: int = SCALARS,
+    are_values: bool = True,
 ) -> DataSamples:
     """The samples of an array of positions, or of a data object.
 
@@ -117,6 +128,8 @@ def samples_of(
         array at the points.
     attribute
         Which array is active, as in vtkDataSetAttributes::AttributeTypes.
+    are_values
+        False: the array of a data object, of any components, determines the samples, which have no values or arrays.
     """
     data = data_object(source)
     if data is None:
@@ -136,14 +149,14 @@ def samples_of(
             block.masked = masked
             return block
         found = _find(leaf, values, associations, attribute)
-        return None if found is None else _block(leaf, *found)
+        return None if found is None else _block(leaf, *found, are_values)
 
     def describe(leaf: Any) -> str:
         elements = _elements(associations)
         wanted = f"active {elements} scalars" if values is None else f"{elements} array named {_quoted([values])}"
         return f"The input has no {wanted}. {_choice_of(leaf)}"
 
-    return _gathered(data, block_of, describe)
+    return _gathered(data, block_of, describe, with_arrays=are_values)
 
 
 def samples_with(data: Any, names: Sequence[str], associations: tuple[int, ...]) -> DataSamples:
@@ -170,8 +183,22 @@ def samples_with(data: Any, names: Sequence[str], associations: tuple[int, ...])
     return _gathered(data, block_of, describe)
 
 
-def _gathered(data: Any, block_of: Callable[[Any], Optional[DataSamples]], describe: Callable[[Any], str]
-              ) -> DataSamples:
+def samples_at(data: Any, with_arrays: bool) -> DataSamples:
+    """The samples of a data object without values: points or, of a data set with arrays of cells alone, the cells."""
+
+    def block_of(leaf: Any) -> DataSamples:
+        has_numbers = [any(use != GLOBAL_IDS for _, _, use in named_arrays(leaf.GetAttributes(association)))
+                       for association in (POINT, CELL)]
+        return _block(leaf, CELL if has_numbers == [False, True] else POINT, None)
+
+    samples = _gathered(data, block_of, lambda _: "The input has no samples. Connect a data set with points.",
+                        with_arrays)
+    samples.maker.scalars = None
+    return samples
+
+
+def _gathered(data: Any, block_of: Callable[[Any], Optional[DataSamples]], describe: Callable[[Any], str],
+              with_arrays: bool = True) -> DataSamples:
     """The samples of all blocks for which there are some. Of a block without, the other function says what lacks."""
     if not (data.IsA("vtkDataSet") or data.IsA("vtkCompositeDataSet")):
         remedy = ("convert it to points first" if data.IsA("vtkTable") else
@@ -179,12 +206,14 @@ def _gathered(data: Any, block_of: Callable[[Any], Optional[DataSamples]], descr
                   "convert it to a data set first")
         raise TypeError(f"A {data.GetClassName()} has no samples: {remedy}.")
     blocks, lacking, without_array = [], None, 0
-    for leaf in leaves(data):
+    for number, leaf in enumerate(leaves(data)):
         size = max(leaf.GetNumberOfPoints(), leaf.GetNumberOfCells()) if leaf.IsA("vtkDataSet") else 0
         if size == 0:
             continue
         block = block_of(leaf)
         if block is not None:
+            block.parts = [Part(number, block.association, leaf.GetNumberOfElements(block.association))]
+            block.arrays = block.arrays if with_arrays else {}
             blocks.append(block)
         else:
             without_array += size
@@ -274,13 +303,13 @@ def _choice_of(leaf: Any) -> str:
     return f"Choose a scalar array; the point arrays are: {of_points}; the cell arrays are: {of_cells}."
 
 
-def _block(leaf: Any, association: int, scalars: Any) -> DataSamples:
+def _block(leaf: Any, association: int, scalars: Any, are_values: bool = True) -> DataSamples:
     name, count = "values", leaf.GetNumberOfElements(association)
     if not (scalars is None or isinstance(scalars, np.ndarray)):
         name = scalars.GetName() or ""
         if not hasattr(scalars, "GetDataTypeSize") or not scalars.IsA("vtkDataArray"):
             raise TypeError(f'The array "{name}" holds no numbers. {_choice_of(leaf)}')
-        if scalars.GetNumberOfComponents() != 1:
+        if are_values and scalars.GetNumberOfComponents() != 1:
             raise ValueError(f'The array "{name}" has {scalars.GetNumberOfComponents()} components,'
                              " but a scalar array has one. Compute a component or the magnitude first.")
         if scalars.GetNumberOfTuples() != count:
@@ -297,7 +326,7 @@ def _block(leaf: Any, association: int, scalars: Any) -> DataSamples:
             if use >= 0:
                 uses[key] = use
     maker = PolyDataMaker(scalars=name or None, uses=uses)
-    return DataSamples(positions, scalars, excluded, arrays, maker, association=association,
+    return DataSamples(positions, scalars if are_values else None, excluded, arrays, maker, association=association,
                        name="" if scalars is None or isinstance(scalars, np.ndarray) else name)
 
 
@@ -328,7 +357,8 @@ def _joined(blocks: list[DataSamples]) -> DataSamples:
     return DataSamples(np.concatenate(positions), np.concatenate(values) if values else None,
                        np.concatenate(excluded), arrays,
                        PolyDataMaker(scalars=name or None, uses=uses), differing=tuple(differing), name=name,
-                       are_float=all(each.dtype == np.float32 for each in values))
+                       are_float=all(each.dtype == np.float32 for each in values),
+                       parts=[part for block in blocks for part in block.parts])
 
 
 def places_of(places: Any) -> np.ndarray:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Finds points and cells of data sets that are no samples because they are ghosts or hidden."""
+"""Finds points and cells of data sets that are no samples because they are ghosts or hidden, and hides some."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from typing import Any, Optional
 
 import numpy as np
 
-from ._arrays import CELL, POINT, as_numpy
+from ._arrays import CELL, POINT, as_numpy, package_of
+from ._polydata import as_vtk
 
 # Bits of vtkGhostType, for points and for cells.
 DUPLICATE_POINT, HIDDEN_POINT = 1, 2
@@ -56,6 +57,20 @@ def ghosts_of(data: Any, association: int) -> Optional[np.ndarray]:
     is_usable = (array is not None and array.IsA("vtkUnsignedCharArray")
                  and array.GetNumberOfComponents() == 1 and array.GetNumberOfTuples() >= count)
     return as_numpy(array)[:count] if is_usable else None
+
+
+def hide_points(data: Any, are_hidden: np.ndarray) -> None:
+    """Marks points, and cells with any of them, as hidden, in arrays of the data set's own."""
+    if not are_hidden.any():
+        return
+    cell, point = cell_points(data)
+    are_hidden_cells = np.zeros(data.GetNumberOfCells(), bool)
+    are_hidden_cells[cell[are_hidden[point]]] = True
+    for association, are, bit in ((POINT, are_hidden, HIDDEN_POINT), (CELL, are_hidden_cells, HIDDEN_CELL)):
+        before = ghosts_of(data, association)
+        marks = np.where(are, bit, 0).astype(np.uint8)
+        marks = marks if before is None else marks | before
+        data.GetAttributes(association).AddArray(as_vtk(package_of(data), "vtkGhostType", marks))
 
 
 def _cell_arrays(data: Any) -> list[Any]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Lines, grids in bounds, and derivatives as vtkGradientFilter names and orders them."""
+"""Lines, grids in bounds, and the names of derivatives."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import numpy as np
 import pyvista as pv
 
 from ._cuts import three_numbers
+from ._derivatives import DERIVATIVES
 from ._options import switch
 
 MOST_POINTS = 2**31 - 1
@@ -64,20 +65,6 @@ def grid_in(box: np.ndarray, dimensions: Any, spacing: Any) -> pv.ImageData:
                          f" {MOST_POINTS}: choose {'a greater spacing' if dimensions is None else 'fewer'}, or smaller"
                          " bounds")
     return pv.ImageData(dimensions=counts.astype(int).tolist(), spacing=wanted.tolist(), origin=box[:, 0].tolist())
-
-
-def _vorticity(gradients: np.ndarray) -> np.ndarray:
-    turned = gradients - gradients.transpose(0, 2, 1)
-    return np.stack([turned[:, 2, 1], turned[:, 0, 2], turned[:, 1, 0]], axis=-1)
-
-
-DERIVATIVES = {
-    "gradient": lambda gradients: gradients.reshape(len(gradients), -1),
-    "divergence": lambda gradients: np.trace(gradients, axis1=1, axis2=2),
-    "vorticity": _vorticity,
-    "qcriterion": lambda gradients: -0.5 * np.einsum("nij,nji->n", gradients, gradients)}
-"""What vtkGradientFilter computes from gradients of shape (n, c, 3), by names of PyVista. All but the gradient need
-vectors."""
 
 
 def names_of_derivatives(*flags: Any) -> dict[str, str]:

@@ -33,6 +33,9 @@ class PolyDataMaker:
     field_data: Any = None
     """Arrays of the whole input, a vtkFieldData."""
 
+    normals: Optional[str] = "Normals"
+    """The name of computed normals; None: there are none, and an array of this name is one of the samples."""
+
     def __getstate__(self) -> dict[str, Any]:
         return {**vars(self), "field_data": None}  # VTK's objects cannot be pickled
 
@@ -68,8 +71,8 @@ class PolyDataMaker:
                 attributes.SetActiveAttribute(index, self.uses[name])
         if self.scalars in surface.arrays:
             attributes.SetActiveScalars(self.scalars)
-        if "Normals" in surface.arrays:
-            attributes.SetActiveNormals("Normals")
+        if self.normals in surface.arrays:
+            attributes.SetActiveNormals(self.normals)
         for name, array in surface.splat_shapes.items():
             shapes = as_vtk(package, name, array)
             shapes.GetInformation().Set(core.vtkAbstractArray.GUI_HIDE(), 1)

@@ -16,7 +16,8 @@ import pyvista as pv
 
 from . import _datasets, _library
 from ._arrays import CELL, POINT, are_names, package_of
-from ._grids import DERIVATIVES, box_of, grid_in, line_between, names_of_derivatives
+from ._derivatives import DERIVATIVES
+from ._grids import box_of, grid_in, line_between, names_of_derivatives
 from ._options import hint, switch
 from ._polydata import as_vtk
 from ._progress import Progress, shown_progress

@@ -9,7 +9,7 @@ import threading
 import warnings
 import weakref
 from ctypes import byref, c_double, c_void_p
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Iterable, Iterator, Mapping, Optional, Union
 
 import numpy as np
@@ -462,8 +462,8 @@ class Samples:
         elif options.compute_splats:
             shapes = {"SplatAxis": _library.view(surface, _library.SPLAT_AXES),
                       "SplatPolygon": _library.view(surface, _library.SPLAT_POLYGONS)}
-        return Isosurface(_library.view(surface, _library.POINTS), triangles, arrays, shapes,
-                          self._maker, threads=threads)
+        maker = self._maker if options.compute_normals else replace(self._maker, normals=None)
+        return Isosurface(_library.view(surface, _library.POINTS), triangles, arrays, shapes, maker, threads=threads)
 
 
 _all: weakref.WeakSet[Samples] = weakref.WeakSet()

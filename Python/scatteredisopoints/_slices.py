@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Mapping, Optional
 
 import numpy as np
@@ -26,34 +27,54 @@ def sliced(samples: Samples, normal: Normal, origin: Any, arrays: Any, function:
     cut, level = make_cut(normal, origin, function, lambda: _center_of_bounds(samples))
     levels = [level + offset for offset in isovalues_of(offsets)]
     chosen = make_slice_options(options)
-    of_samples = _arrays_of(samples, arrays)
-    threads = samples._threads if threads is None else threads
-    most_threads = thread_count(threads)
+    of_samples = arrays_of(samples, arrays)
     with shown_progress(progress, "Slicing") as report:
-        with samples._exclusive():
-            samples._require_samples()
-            _library.run(_library.set_threads, samples._extractor, most_threads)
-            at_samples = _hold_cut(samples, cut, part(report, 0.0, 0.3))
-            surface = samples._surface(levels, chosen, {"progress": part(report, 0.3, 0.6)})
-            held_range = samples._held_range()
-        points = _library.view(surface, _library.POINTS)
-        found = samples._interpolated(surface, of_samples, None)
-        if not cut.is_plane and at_samples is not None and len(points):
-            points = _moved_onto(samples, cut, at_samples, surface, points, of_samples, found)
-        if fits and len(points):
-            _fit(samples, points, of_samples, found, threads, part(report, 0.6, 1.0))
+        made = make_slice(samples, cut, levels, chosen, of_samples, fits, threads, report)
     texts = list(samples._describe_left_out())
     if arrays is None and samples._differing:
         texts.append(_datasets.describe_differing(samples._differing))
-    if len(points) == 0:
-        text = describe_empty(levels, *held_range, _library.get_dropped_count(surface), cut.is_plane)
+    if len(made.isosurface) == 0:
+        text = describe_empty(levels, *made.range, made.dropped, cut.is_plane)
         texts = [*texts, *([] if text is None else [text])]
     for text in texts:
         warnings.warn(text, RuntimeWarning, stacklevel=stacklevel)
-    return Isosurface(points, _library.view(surface, _library.TRIANGLES), found, {}, samples._maker, threads=threads)
+    return made.isosurface
 
 
-def _arrays_of(samples: Samples, arrays: Any) -> dict[str, Any]:
+@dataclass
+class Slice:
+    """A slice, and what tells why it may be empty."""
+
+    isosurface: Isosurface
+    range: tuple[float, float]
+    """Of the function at the samples."""
+    dropped: int
+    """The number of tetrahedra in gaps."""
+
+
+def make_slice(samples: Samples, cut: Cut, levels: list[float], options: _library.Options,
+               of_samples: Mapping[str, Any], fits: bool, threads: Optional[int], report: Any) -> Slice:
+    """A slice at levels of a function, with arrays by name. Calls `report` with the share done."""
+    threads = samples._threads if threads is None else threads
+    most_threads = thread_count(threads)
+    with samples._exclusive():
+        samples._require_samples()
+        _library.run(_library.set_threads, samples._extractor, most_threads)
+        at_samples = _hold_cut(samples, cut, part(report, 0.0, 0.3))
+        surface = samples._surface(levels, options, {"progress": part(report, 0.3, 0.6)})
+        held_range = samples._held_range()
+    points = _library.view(surface, _library.POINTS)
+    found = samples._interpolated(surface, of_samples, None)
+    if not cut.is_plane and at_samples is not None and len(points):
+        points = _moved_onto(samples, cut, at_samples, surface, points, of_samples, found)
+    if fits and len(points):
+        _fit(samples, points, of_samples, found, threads, part(report, 0.6, 1.0))
+    triangles, maker = _library.view(surface, _library.TRIANGLES), replace(samples._maker, normals=None)
+    return Slice(Isosurface(points, triangles, found, {}, maker, threads=threads), held_range,
+                 _library.get_dropped_count(surface))
+
+
+def arrays_of(samples: Samples, arrays: Any) -> dict[str, Any]:
     """The arrays of a slice by name."""
     if isinstance(arrays, Mapping) or are_names(arrays):
         many = arrays if isinstance(arrays, Mapping) else dict(zip(arrays, arrays))

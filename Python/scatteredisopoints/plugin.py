@@ -7,7 +7,8 @@ from typing import Any, Optional
 
 from ._paths import PLUGIN, PYTHON_PLUGIN
 
-_PROXIES = ("ScatteredIsopoints", "ScatteredIsosurface", "IsopointSplatPolygons")
+_PROXIES = ("ScatteredIsopoints", "ScatteredIsosurface", "IsopointSplatPolygons", "ScatteredProbe", "ScatteredLine",
+            "ScatteredGrid", "ScatteredGradient", "ScatteredSlice")
 
 
 def loaded_plugins() -> set[str]:
@@ -23,8 +24,8 @@ def load_plugin(namespace: Optional[dict[str, Any]] = None) -> None:
     """Loads the plugin into ParaView, and into a connected server, where it must have the same path.
 
     Loads the compiled plugin if this package was built with ParaView, otherwise the plugin in Python.
-    paraview.simple then has ScatteredIsopoints, ScatteredIsosurface and IsopointSplatPolygons. Does nothing
-    if the plugin is loaded.
+    paraview.simple then has ScatteredIsopoints, ScatteredIsosurface, IsopointSplatPolygons, ScatteredProbe,
+    ScatteredLine, ScatteredGrid, ScatteredGradient and ScatteredSlice. Does nothing if the plugin is loaded.
 
     Parameters
     ----------

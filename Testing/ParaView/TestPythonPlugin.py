@@ -17,6 +17,17 @@ wavelet.UpdatePipeline()
 points = ScatteredIsopoints(registrationName="points", Input=wavelet, Isosurfaces=[180.0], DropGaps=0)
 surface = ScatteredIsosurface(registrationName="surface", Input=wavelet,
                               ContourBy=["POINTS", "RTData"], Projection="Quadratic fit", Regularize=0)
+ScatteredProbe(registrationName="probe", Input=wavelet, Source=Sphere(Radius=9), Interpolation="Cubic fit")
+ScatteredLine(registrationName="line", Input=wavelet, Resolution=30)
+ScatteredGrid(registrationName="grid", Input=wavelet, SamplingDimensions=[7, 8, 9])
+ScatteredGradient(registrationName="gradient", Input=wavelet)
+plane = ScatteredSlice(registrationName="slice", Input=wavelet, DropGaps=0)
+plane.SliceType.Normal = [1, 2, 3]
+UpdatePipeline(proxy=plane)
+plane.SliceType.Origin = [0, 0, 2.5]             # after an update: the filter notices
+plane.SliceType.Offset = 1.5
+ball = ScatteredSlice(registrationName="ball", Input=wavelet, SliceType="Sphere", Interpolation="Linear")
+ball.SliceType.Radius = 7
 Show(surface)
 Render()
 """
@@ -26,16 +37,20 @@ from paraview.simple import *
 import hashlib
 from paraview import servermanager
 from vtkmodules.util.numpy_support import vtk_to_numpy
-for name in ("points", "surface"):
+for name in ("points", "surface", "probe", "line", "grid", "gradient", "slice", "ball"):
     source = FindSource(name)
     source.UpdatePipeline()
     data = servermanager.Fetch(source)
-    if data.GetNumberOfVerts():  # points in Python come with their polygons
+    if name == "points" and data.GetNumberOfVerts():  # those in Python come with their polygons
         data = servermanager.Fetch(IsopointSplatPolygons(Input=source))
-    print("found:", name, hashlib.sha256(vtk_to_numpy(data.GetPoints().GetData())).hexdigest())
+    points = data.GetPoints().GetData() if data.IsA("vtkPointSet") else None
+    arrays = [data.GetPointData().GetArray(i) for i in range(data.GetPointData().GetNumberOfArrays())]
+    print("found:", name, data.GetNumberOfPoints(), data.GetBounds(), *(
+        hashlib.sha256(vtk_to_numpy(array)).hexdigest()[:16] for array in (points, *(arrays if name != "points" else ()))
+        if array))
     names = [n for n in source.ListProperties() if n not in ("Input", "UseGlobalController")]
-    print("found:", *(f"{n}={source.GetPropertyValue(n)}" for n in sorted(names)
-                      if not n.startswith("NumberOf") or n == "NumberOfNeighbors"))
+    print("found:", *(f"{n}={source.GetPropertyValue(n)}" for n in sorted(names) if n not in ("SliceType", "Source")
+                      and (not n.startswith("NumberOf") or n == "NumberOfNeighbors")))
     proxy = source.SMProxy
     print("found:", proxy.GetXMLName(), proxy.GetXMLLabel(), proxy.GetDocumentation().GetDescription()[:60].strip())
     for i in range(proxy.GetNumberOfPropertyGroups()):

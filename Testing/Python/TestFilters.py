@@ -7,7 +7,6 @@ differences; tests that follow one say so by differs(). TestPythonFilters.py com
 
 import errno
 import gc
-import pathlib
 import re
 import unittest
 import weakref
@@ -15,110 +14,26 @@ from unittest import mock
 
 import numpy as np
 import scatteredisopoints
+from filter_testing import (
+    ANY, CELLS, DIFFERENCES, DOCUMENT, DUPLICATE, DUPLICATE_POINT, HIDDEN, HIDDEN_POINT, POINTS, REFINED, FilterTests,
+    add, chosen, cloud, every_grid, image, places_of, values_in, with_field, with_ghosts)
 from scatteredisopoints import _library, _vtk, contouring
 from vtk_data import (
-    assert_same, blocks_of, centers_in, cloud_of, configured, leaves_of, named, observed, points_of, positions_in,
-    set_all, updated)
+    assert_same, blocks_of, centers_in, cloud_of, configured, leaves_of, named, observed, positions_in, set_all,
+    updated)
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import VTK_DOUBLE
 from vtkmodules.vtkCommonDataModel import (
-    VTK_EMPTY_CELL, VTK_HEXAHEDRON, VTK_TETRA, VTK_VERTEX, vtkDataObject, vtkHyperTreeGrid, vtkImageData,
-    vtkMultiBlockDataSet, vtkPartitionedDataSet, vtkPartitionedDataSetCollection, vtkPolyData, vtkRectilinearGrid,
-    vtkStructuredGrid, vtkTable, vtkUnstructuredGrid)
-
-DOCUMENT = pathlib.Path(__file__).resolve().parents[2] / "docs/python.md"
-
-# Of the classes in Python, in the words of docs/python.md.
-DIFFERENCES = (
-    "Hyper tree grids are no input.",
-    "String arrays are left out.",
-    "Each piece of the output is the whole output.",
-    "Samples of blocks without the array have a message of their own.",
-    'Messages call ghosts "excluded".',
-    "`vtkIsopointSplatPolygons`: points without normals have no polygons.",
-)
-
-POINTS, CELLS, ANY = (vtkDataObject.FIELD_ASSOCIATION_POINTS, vtkDataObject.FIELD_ASSOCIATION_CELLS,
-                      vtkDataObject.FIELD_ASSOCIATION_POINTS_THEN_CELLS)
-DUPLICATE_POINT, HIDDEN_POINT, DUPLICATE, REFINED, HIDDEN = 1, 2, 1, 8, 32
+    VTK_EMPTY_CELL, VTK_HEXAHEDRON, VTK_TETRA, VTK_VERTEX, vtkHyperTreeGrid, vtkMultiBlockDataSet, vtkPolyData,
+    vtkTable, vtkUnstructuredGrid)
 
 
-def cloud(count=2000, seed=1, kind=np.float64):
-    """Random points in a cube of side 2 around the origin, with the distance from it and further arrays."""
-    positions = np.random.default_rng(seed).uniform(-1, 1, (count, 3)).astype(kind)
-    data = cloud_of(positions, np.linalg.norm(positions, axis=1), "distance")
-    data.GetPointData().AddArray(named("x", positions[:, 0]))
-    data.GetPointData().AddArray(named("position", positions))
-    return data
-
-
-def values_in(data, name="distance"):
-    return vtk_to_numpy(data.GetPointData().GetArray(name))
-
-
-def image(cells=8, origin=-1.0):
-    """A box of cells. All coordinates are exact: a position computed in another way is the same."""
-    return set_all(vtkImageData(), Dimensions=3 * (cells + 1,), Spacing=3 * (0.25,), Origin=3 * (origin,))
-
-
-def rectilinear(box):
-    axes = {axis + "Coordinates": named(axis, low + step * np.arange(count)) for axis, low, step, count in zip(
-        "XYZ", box.GetOrigin(), box.GetSpacing(), box.GetDimensions())}
-    return set_all(vtkRectilinearGrid(), Dimensions=box.GetDimensions(), **axes)
-
-
-def structured(box):
-    return set_all(vtkStructuredGrid(), Dimensions=box.GetDimensions(), Points=points_of(positions_in(box)))
-
-
-def unstructured(box):
-    grid = set_all(vtkUnstructuredGrid(), Points=points_of(positions_in(box)))
-    for cell in range(box.GetNumberOfCells()):
-        ids = box.GetCell(cell).GetPointIds()
-        grid.InsertNextCell(box.GetCellType(cell), ids)
-    return grid
-
-
-def every_grid():
-    return [make(image()) for make in (lambda box: box, rectilinear, structured, unstructured)]
-
-
-def places_of(data, association):
-    return positions_in(data) if association == POINTS else centers_in(data)
-
-
-def add(data, association, name, values):
-    data.GetAttributes(association).AddArray(named(name, values))
-    return data
-
-
-def with_field(data, association=POINTS):
-    """Adds an array f of points or cells, and one named like it of the others."""
-    add(data, 1 - association, "f", np.zeros(data.GetNumberOfElements(1 - association)))
-    return add(data, association, "f", np.cos(places_of(data, association) @ [2.0, 3.0, 1.0]))
-
-
-def with_ghosts(data, association, bits):
-    """bits: of one element each, repeated"""
-    count = data.GetNumberOfElements(association)
-    return add(data, association, "vtkGhostType", np.resize(np.array(bits, np.uint8), count))
-
-
-def chosen(filter_, name, association=POINTS):
-    filter_.SetInputArrayToProcess(0, 0, 0, association, name)
-    return filter_
-
-
-class Filters:
+class Filters(FilterTests):
     """The tests. Subclasses have the classes."""
 
     @property
     def kinds(self):
         return self.module.vtkScatteredIsopointFilter, self.module.vtkScatteredIsosurfaceFilter
-
-    def differs(self, difference):
-        self.assertIn(difference, DIFFERENCES)
-        return self.module is _vtk
 
     def contour(self, data, association=POINTS, kind=0, isovalue=0.2, **properties):
         """The filter of an array f, which is updated without an error."""
@@ -138,21 +53,6 @@ class Filters:
         self.assertGreater(expected.GetNumberOfPoints(), 20)
         assert_same(self, found.GetOutput(), expected)
         self.assertEqual(found.GetNumberOfSkippedSamples(), np.count_nonzero(~kept))
-
-    def texts_of(self, filter_, event="WarningEvent"):
-        """The messages of an update, without the name of the class."""
-        texts = observed(filter_)
-        filter_.Modified()
-        filter_.Update()
-        filter_.RemoveObservers("ErrorEvent")
-        filter_.RemoveObservers("WarningEvent")
-        filter_.RemoveObservers("MessageEvent")
-        return [text[text.index("Filter") + 6:] if "Filter" in text else text for text in texts[event]]
-
-    def assert_one(self, texts, *words):
-        self.assertEqual(len(texts), 1, texts)
-        for word in words:
-            self.assertIn(word, texts[0])
 
     # Inputs
 
@@ -222,24 +122,6 @@ class Filters:
             self.assert_one(self.texts_of(filter_, "ErrorEvent"), "no points or cells")
 
     # Composites
-
-    def blocks(self):
-        """Adjacent blocks of several kinds; two of them have the points of a shared face."""
-        boxes = [set_all(image(4), Origin=origin) for origin in (3 * (-1.0,), (0.0, -1.0, -1.0), (-1.0, 0.0, -1.0))]
-        blocks = [boxes[0], rectilinear(boxes[1]), unstructured(boxes[2])]
-        for block in blocks:
-            for association in (POINTS, CELLS):
-                add(block, association, "f", np.cos(places_of(block, association) @ [2.0, 3.0, 1.0]))
-        return blocks
-
-    def trees(self, blocks):
-        """The same blocks in every composite that is a tree, with gaps and leaves that are no data sets."""
-        table, partitioned, collection = vtkTable(), vtkPartitionedDataSet(), vtkPartitionedDataSetCollection()
-        for i, block in enumerate(blocks):
-            partitioned.SetPartition(i, block)
-            collection.SetPartition(i, 0, block)
-        return [blocks_of(blocks[0], None, *blocks[1:]), blocks_of(blocks[0], blocks_of(table, *blocks[1:]), table),
-                partitioned, collection]
 
     def cloud_of_all(self, blocks, association=POINTS):
         return cloud_of(np.concatenate([places_of(block, association) for block in blocks]), np.concatenate(
@@ -445,6 +327,9 @@ class Filters:
         bare = updated(self.kinds[0], data, [0.7], ComputeScalars=False, ComputeNormals=False, ComputeSplats=False)
         for name in ("distance", "Normals", "Radius"):
             self.assertFalse(bare.GetOutput().GetPointData().HasArray(name))
+        add(data, POINTS, "Normals", positions_in(data))
+        given = updated(self.kinds[0], data, [0.7], ComputeNormals=False, ComputeSplats=False).GetOutput()
+        self.assertIsNone(given.GetPointData().GetNormals(), "an array like others")
 
     # Ghosts
 
@@ -543,14 +428,14 @@ class Filters:
         self.assertEqual((filter_.GetNumberOfSkippedSamples(), filter_.GetNumberOfSamples()), (2, 500))
         self.assertEqual(self.texts_of(configured(self.kinds[0], data, [0.7])), [], "a note is no warning")
         with_ghosts(data, POINTS, [0, 0, 0, DUPLICATE_POINT] + 496 * [0])
-        ghost = "1 excluded" if self.differs('Messages call ghosts "excluded".') else "1 ghost"
+        ghost = "1 excluded" if self.differs('Isosurfaces: messages call ghosts "excluded".') else "1 ghost"
         texts = self.texts_of(configured(self.kinds[0], data, [0.7]), "MessageEvent")
         self.assert_one(texts, "3 of 500", "2 not finite", ghost)
         other = cloud_of(positions_in(cloud(30)))
         for by_block in (False, True):
             texts = self.texts_of(configured(
                 self.kinds[0], blocks_of(data, other, cloud(400)), [0.7], ContourBlocks=by_block), "MessageEvent")
-            if self.differs("Samples of blocks without the array have a message of their own."):
+            if self.differs("Isosurfaces: samples of blocks without the array have a message of their own."):
                 self.assert_one(texts[:1], "3 of 900", "2 not finite")
                 self.assert_one(texts[1:], "30 points")
             else:
@@ -653,8 +538,8 @@ class Filters:
             for piece in range(3):
                 filter_.UpdatePiece(piece, 3, 0)
                 counts.append(filter_.GetOutput().GetNumberOfCells())
-            expected = [whole] * 3 if self.differs("Each piece of the output is the whole output.") else [whole / 3] * 3
-            np.testing.assert_allclose(counts, expected, atol=1)
+            is_whole = self.differs("Each piece of isosurfaces and slices is the whole.")
+            np.testing.assert_allclose(counts, [whole if is_whole else whole / 3] * 3, atol=1)
             filter_.UpdatePiece(0, 1, 0)
             self.assertEqual(filter_.GetOutput().GetNumberOfCells(), whole)
 

@@ -2,26 +2,29 @@
 """The filters in Python against the compiled ones: methods, defaults, ranges, outputs, messages."""
 
 import errno
+import re
 import unittest
 from unittest import mock
 
 import fingerprint
 import numpy as np
 import scatteredisopoints
-from scatteredisopoints import _vtk
-from vtk_data import assert_same, blocks_of, cloud_of, configured, named, observed, updated
+from scatteredisopoints import _vtk, _vtk_algorithm
+from vtk_data import assert_same, blocks_of, cloud_of, configured, named, observed, set_all, updated
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkBox, vtkCylinder, vtkDataObject, vtkPlane, vtkPolyData, vtkSphere
 from vtkmodules.vtkCommonExecutionModel import vtkTrivialProducer
+from vtkmodules.vtkCommonTransforms import vtkTransform
 
-PAIRS = [(getattr(scatteredisopoints, name), getattr(_vtk, name))
-         for name in ("vtkScatteredIsopointFilter", "vtkScatteredIsosurfaceFilter",
-                      "vtkIsopointSplatPolygons")]
+NAMES = ("vtkScatteredIsopointFilter", "vtkScatteredIsosurfaceFilter", "vtkIsopointSplatPolygons",
+         "vtkScatteredProbeFilter", "vtkScatteredLineFilter", "vtkScatteredGridFilter", "vtkScatteredGradientFilter",
+         "vtkScatteredSliceFilter")
+PAIRS = [(getattr(scatteredisopoints, name), getattr(_vtk, name)) for name in NAMES]
 ISOPOINTS, ISOSURFACE = _vtk.vtkScatteredIsopointFilter, _vtk.vtkScatteredIsosurfaceFilter
 
 # What the filters in Python do not have: ranks, threads of VTK, and what VTK's own classes have for C++.
 MISSING = {"SetController", "GetController", "SetUseGlobalController", "SetUseAllCores",
-           "GetUseAllCores", "UseAllCoresOn", "UseAllCoresOff", "AddInputData"}
+           "GetUseAllCores", "UseAllCoresOn", "UseAllCoresOff"}
 
 
 def own_methods(class_):
@@ -37,7 +40,8 @@ def cloud(count=5000):
 class PythonFilters(unittest.TestCase):
     def test_methods_are_the_same(self):
         for theirs, ours in PAIRS:
-            lacking = own_methods(theirs) - set(dir(ours)) - MISSING - {"NormalMethods", "ProjectionMethod"}
+            lacking = own_methods(theirs) - set(dir(ours)) - MISSING - {
+                "InterpolationMethods", "NormalMethods", "ProjectionMethod", "Strategy"}
             lacking -= {name for name in lacking if "To" in name or name.endswith(("MinValue", "MaxValue"))}
             self.assertEqual(lacking, set(), theirs.__name__)
 
@@ -47,10 +51,17 @@ class PythonFilters(unittest.TestCase):
             for name in ours.PROPERTIES:
                 pair = ours(), theirs()
                 self.assertIn(f"{name}: ", str(pair[1]))
-                for value in (None, -5, -1, 0, 1, 2, 3, 4, 5, 12, 10**6):
+                for value in (None, *self.values_for(ours.PROPERTIES[name])):
                     for filter_ in pair if value is not None else ():
                         getattr(filter_, "Set" + name)(value)
                     self.assertEqual(*(getattr(filter_, "Get" + name)() for filter_ in pair), (name, value))
+
+    def values_for(self, property_):
+        if isinstance(property_.default, tuple):
+            return [[type(each)(i - 2) for i, each in enumerate(property_.default)]]
+        if isinstance(property_.default, str):
+            return "other", ""
+        return (0, 1) if property_.is_switch else (-5, -1, 0, 1, 2, 3, 4, 5, 12, 10**6)
 
     def test_outputs_are_the_same(self):
         compared = with_points = with_splats = 0
@@ -79,6 +90,73 @@ class PythonFilters(unittest.TestCase):
         self.assertGreater(compared, 90)
         self.assertGreater(with_points, 60)
         self.assertGreater(with_splats, 10)
+
+    def test_places_and_slices_are_the_same(self):
+        """Outputs, counts and messages, of random samples and options."""
+        kinds = set()
+        for number in range(40):
+            source, random = fingerprint.configured(number, PAIRS[0][0])
+            data = source.GetInputDataObject(0, 0)
+            if data.IsA("vtkHyperTreeGrid"):
+                continue
+            grid = updated(PAIRS[5][0], data, SamplingDimensions=(7, 6, 5), KeepTree=0).GetOutput()
+            grid.GetPointData().Initialize()
+            grid.GetCellData().Initialize()
+            corners = cloud_of(np.array([grid.GetPoint(i) for i in range(210)]).astype(random.choice(["f4", "f8"])))
+            places = (grid, corners, blocks_of(grid, corners, None))[int(random.integers(3))]
+            low, high = np.reshape(grid.GetBounds(), (3, 2)).T
+            options = self.random_options(random, low, high)
+            for name, pair in zip(NAMES[3:], PAIRS[3:]):
+                found = []
+                for class_ in pair:
+                    filter_ = set_all(class_(), InputDataObject=data, **options[name])
+                    if name == "vtkScatteredProbeFilter":
+                        set_all(filter_, SourceData=data, InputDataObject=places)
+                    if name == "vtkScatteredGradientFilter":
+                        association = source.GetInputArrayInformation(0).Get(vtkDataObject.FIELD_ASSOCIATION())
+                        array = "vectors" if filter_.GetComputeQCriterion() else "values"
+                        filter_.SetInputArrayToProcess(0, 0, 0, association, array)
+                    texts = observed(filter_)
+                    filter_.Update()
+                    found.append((filter_, self.without_class(texts)))
+                (theirs, expected), (ours, texts) = found
+                with self.subTest(number=number, name=name, data=data.GetClassName(), options=options[name]):
+                    assert_same(self, ours.GetOutputDataObject(0), theirs.GetOutputDataObject(0))
+                    self.assertEqual(texts, expected)
+                    for count in ours.COUNTS:
+                        self.assertEqual(*(getattr(each, "GetNumberOf" + count)() for each in (ours, theirs)), count)
+                    if theirs.GetOutputDataObject(0).GetNumberOfElements(0) > 0:
+                        kinds.add((name, data.GetClassName()))
+        self.assertGreater(len(kinds), 15)
+
+    def random_options(self, random, low, high):
+        """By class, for samples in bounds."""
+        middle, size = 0.5 * low + 0.5 * high, (high - low).max()
+        normal = random.normal(size=3)
+        turned = vtkTransform()
+        turned.RotateX(20)
+        function = (
+            lambda: set_all(vtkPlane(), Normal=tuple(normal), Origin=tuple(middle)),
+            lambda: set_all(vtkPlane(), Normal=tuple(normal), Origin=tuple(middle), Transform=turned),
+            lambda: set_all(vtkSphere(), Center=tuple(middle), Radius=0.3 * size),
+            lambda: set_all(vtkBox(), Bounds=tuple(np.ravel([middle - 0.3 * size, middle + 0.2 * size], order="F"))),
+            lambda: set_all(vtkCylinder(), Center=tuple(middle), Radius=0.3 * size))[int(random.integers(5))]()
+        probing = dict(Interpolation=int(random.integers(5)), NullPointsStrategy=int(random.integers(3)),
+                       NullValue=-7.5, MarkBlankPointsAndCells=int(random.integers(2)),
+                       PassPointArrays=int(random.integers(2)))
+        return dict(zip(NAMES[3:], (
+            probing, dict(probing, Point1=tuple(low), Point2=tuple(high), Resolution=50),
+            dict(probing, SamplingDimensions=(6, 7, 8)),
+            dict(Interpolation=int(random.integers(4)), **dict.fromkeys(
+                ("ComputeDivergence", "ComputeVorticity", "ComputeQCriterion"), int(random.integers(2)))),
+            dict(CutFunction=function, Interpolation=int(random.integers(2)), Value=(1, 0.1 * size),
+                 DropGaps=int(random.integers(2)), Regularize=int(random.integers(2)),
+                 OutputPointsPrecision=int(random.integers(3))))))
+
+    def without_class(self, texts):
+        """The texts of events alone."""
+        return {event: [re.sub(r"^(ERROR|Warning):(.|\n)*?(\): |Filter: )", "", text).strip() for text in list_]
+                for event, list_ in texts.items()}
 
     def same_splats(self, points):
         """The same triangles, points of vertices, and means of floating-point arrays. @returns whether there are any"""
@@ -145,14 +223,15 @@ class PythonFilters(unittest.TestCase):
                 self.assertEqual(found[0], found[1])
 
     def test_several_processes_are_told_of_once(self):
-        with mock.patch.object(_vtk, "is_first_of_several", lambda: True):
-            filter_ = configured(ISOPOINTS, cloud())
-            texts = observed(filter_)
-            for isovalue in (0.3, 0.4):
-                filter_.SetValue(0, isovalue)
-                filter_.Update()
-        self.assertEqual(len(texts["WarningEvent"]), 1)
-        self.assertIn("process contours its own samples", texts["WarningEvent"][0])
+        with mock.patch.object(_vtk_algorithm, "is_first_of_several", lambda: True):
+            for class_ in (ISOPOINTS, _vtk.vtkScatteredLineFilter):
+                filter_ = configured(class_, cloud(), [0.3] if class_ is ISOPOINTS else [])
+                texts = observed(filter_)
+                for _ in range(2):
+                    filter_.Modified()
+                    filter_.Update()
+                self.assertEqual(len(texts["WarningEvent"]), 1)
+                self.assertIn("process takes its own samples alone", texts["WarningEvent"][0])
 
     def test_progress_and_aborts(self):
         """Progress rises; an abort leaves nothing, and the next update is complete."""

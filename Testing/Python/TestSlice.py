@@ -66,6 +66,8 @@ class Values(unittest.TestCase):
         for dtype in (np.int8, np.uint16, np.int64, np.uint64):
             least, most = np.iinfo(dtype).min, np.iinfo(dtype).max
             self.assertEqual(rounded(np.array([-1e30, 1.6, 1e30]), np.dtype(dtype)).tolist(), [least, 2, most])
+        halves = np.array([-2.5, -0.5, 0.49999999999999994, 0.5, 2.5])  # as C rounds
+        self.assertEqual(rounded(halves, np.dtype(int)).tolist(), [-3, -1, 0, 1, 3])
 
     def test_functions_that_are_no_planes(self):
         for regularize in (True, False):

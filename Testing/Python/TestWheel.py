@@ -190,6 +190,7 @@ def main(folder, wheel=None):
     environment = Environment(folder / "vtk", pythons[newest], wheel, "vtk")
     environment.run(TESTS / "TestPackage.py", "Results", "KeptTrees", "Imports")
     environment.run(TESTS / "TestFilters.py")
+    environment.run(TESTS / "TestPlaceFilters.py")
     check_results(environment, expected)
     examples = run_examples(environment, "python")
     print(f"{environment.describe()}: passed, {examples} examples of the documents")

@@ -163,16 +163,23 @@ def assert_same(test, ours, theirs):
                 assert_same(test, *leaves)
         return
     test.assertEqual(ours.GetNumberOfPoints(), theirs.GetNumberOfPoints())
-    for cells in ("GetVerts", "GetPolys"):
-        test.assertEqual(*(getattr(data, cells)().GetNumberOfCells() for data in (ours, theirs)), cells)
     test.assertEqual(ours.GetNumberOfCells(), theirs.GetNumberOfCells())
-    arrays = [[data.GetPoints().GetData() for data in (ours, theirs)]] if theirs.GetNumberOfPoints() else []
-    arrays += [[getattr(data, kind)().GetConnectivityArray() for data in (ours, theirs)]
-               for kind in ("GetVerts", "GetPolys") if getattr(theirs, kind)().GetNumberOfCells()]
+    arrays = []
+    if theirs.IsA("vtkPointSet") and theirs.GetNumberOfPoints():
+        arrays.append([data.GetPoints().GetData() for data in (ours, theirs)])
+    else:
+        np.testing.assert_array_equal(*map(positions_in, (ours, theirs)))
+    if theirs.IsA("vtkPolyData"):
+        for kind in ("GetVerts", "GetLines", "GetPolys"):
+            pair = [getattr(data, kind)() for data in (ours, theirs)]
+            test.assertEqual(*(cells.GetNumberOfCells() for cells in pair), kind)
+            if pair[1].GetNumberOfCells():
+                arrays.append([cells.GetConnectivityArray() for cells in pair])
     for kind in ("GetPointData", "GetCellData"):
         found, expected = getattr(ours, kind)(), getattr(theirs, kind)()
         names = [expected.GetArrayName(i) for i in range(expected.GetNumberOfArrays()) if expected.GetArray(i)]
-        test.assertEqual({found.GetArrayName(i) for i in range(found.GetNumberOfArrays())}, set(names))
+        test.assertEqual({found.GetArrayName(i) for i in range(found.GetNumberOfArrays()) if found.GetArray(i)},
+                         set(names))
         arrays += [[data.GetArray(name) for data in (found, expected)] for name in names]
         for i in range(6):
             active = [data.GetAttribute(i) and data.GetAttribute(i).GetName() for data in (found, expected)]

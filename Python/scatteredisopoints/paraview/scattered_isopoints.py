@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """ParaView's plugin in Python, for versions of ParaView without the compiled plugin: Scattered Isopoints,
-Scattered Isosurface and Isopoint Splat Polygons.
+Scattered Isosurface, Isopoint Splat Polygons, and Scattered Probe, Line, Grid, Gradient and Slice.
 
 Proxies, properties and help come from the compiled plugin's XML. Points have polygons, because there is no
 representation that draws splats. Load the plugin by Tools > Manage Plugins, by setting PV_PLUGIN_PATH to
@@ -33,7 +33,7 @@ def _adapted(name):
     for element in proxy.iter():
         element.tag = {"IsopointArrayDomain": "ArrayListDomain",
                        "IsopointRangeDomain": "ArrayRangeDomain"}.get(element.tag, element.tag)
-        if element.get("name") == "ContourValues":
+        if element.get("name") == "ContourValues" and element.get("default_values") is None:
             element.set("default_values", "0.5")
         if element.tag == "ArrayRangeDomain":
             element.set("default_mode", "mid")
@@ -65,8 +65,29 @@ class IsopointSplatPolygons(_vtk.vtkIsopointSplatPolygons):
     """The polygons of isopoints."""
 
 
+class ScatteredProbe(_vtk.vtkScatteredProbeFilter):
+    """Values at the points of a data set."""
+
+
+class ScatteredLine(_vtk.vtkScatteredLineFilter):
+    """Values along a line."""
+
+
+class ScatteredGrid(_vtk.vtkScatteredGridFilter):
+    """Values at the points of an image."""
+
+
+class ScatteredGradient(_vtk.vtkScatteredGradientFilter):
+    """Derivatives at the samples."""
+
+
+class ScatteredSlice(_vtk.vtkScatteredSliceFilter):
+    """Slices as triangles."""
+
+
 if "ScatteredIsopoints" in loaded_plugins():
     print("ScatteredIsopoints, the compiled plugin, is loaded already: the one in Python adds nothing.")
 else:
-    for _class in (ScatteredIsopoints, ScatteredIsosurface, IsopointSplatPolygons):
+    for _class in (ScatteredIsopoints, ScatteredIsosurface, IsopointSplatPolygons, ScatteredProbe, ScatteredLine,
+                   ScatteredGrid, ScatteredGradient, ScatteredSlice):
         _class._pvsm_proxy_xml = _adapted(_class.__name__)

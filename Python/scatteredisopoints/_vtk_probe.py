@@ -1,0 +1,270 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The filters in Python that interpolate samples at places: see the compiled classes of these names."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray
+from vtkmodules.vtkCommonCore import VTK_CHAR, vtkDataArray, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkCompositeDataSet, vtkDataObject, vtkImageData, vtkPolyData
+from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkStreamingDemandDrivenPipeline
+
+from . import _datasets, _library
+from ._arrays import as_numpy, positions_of, readable
+from ._ghosts import hide_points
+from ._options import CONSTANTS, make_probe_options
+from ._polydata import as_vtk
+from ._progress import part
+from ._samples import Samples
+from ._shared_arrays import DOUBLE, SharedArray, shared_arrays
+from ._vtk_algorithm import ScatteredAlgorithm, fill, with_properties
+
+PACKAGE = "vtkmodules"
+MASK_POINTS, NULL_VALUE, CLOSEST_POINT = range(3)
+LOADED = 0.2  # share of the progress
+
+
+class Probing(ScatteredAlgorithm):
+    """What the filters share that interpolate."""
+
+    def _probe(self, samples: Samples, places: np.ndarray, numbers: dict[str, np.ndarray], outside: Any,
+               with_gradients: bool) -> tuple[dict, dict, np.ndarray]:
+        """Values, gradients, and kinds of places."""
+        options = make_probe_options(self._values["Interpolation"], outside)
+        return samples._probed(places, numbers, options, with_gradients, None, part(self._advance, LOADED, 1.0))
+
+    def _describe_flat(self, kinds: np.ndarray, consequence: str) -> list[_library.Message]:
+        flat = np.count_nonzero(kinds & _library.PLACE_FLAT)
+        return [] if flat == 0 else [_library.Message(
+            f"At {flat} of {len(kinds)} points the samples around are in a plane or on a line: {consequence}",
+            is_warning=False, cause="flat")]
+
+
+@with_properties("ScatteredProbe")
+class vtkScatteredProbeFilter(Probing):
+    """Interpolates scattered samples at the points of any data set: see the compiled class of this name."""
+
+    SAMPLES_PORT = 1
+    MASK_POINTS, NULL_VALUE, CLOSEST_POINT = MASK_POINTS, NULL_VALUE, CLOSEST_POINT
+
+    def SetSourceData(self, source: Any) -> None:
+        self.SetInputData(self.SAMPLES_PORT, source)
+
+    def GetSource(self) -> Any:
+        return self.GetInput(self.SAMPLES_PORT)
+
+    def SetSourceConnection(self, output: Any) -> None:
+        self.SetInputConnection(self.SAMPLES_PORT, output)
+
+    def _output_class(self, data: Any) -> type:
+        return type(data.NewInstance())  # not a class of another package, derived in Python
+
+    def RequestInformation(self, _request, inputs, outputs):
+        source = inputs[self.SAMPLES_PORT].GetInformationObject(0)
+        if source.Has(vtkStreamingDemandDrivenPipeline.TIME_STEPS()):
+            for key in (vtkStreamingDemandDrivenPipeline.TIME_STEPS(), vtkStreamingDemandDrivenPipeline.TIME_RANGE()):
+                outputs.GetInformationObject(0).CopyEntry(source, key)
+        return 1
+
+    def _make_places(self, samples: Samples, output: Any) -> None:
+        """Gives the output its points, and the arrays that it has besides interpolated ones."""
+        places = self.GetInput()
+        if not isinstance(output, vtkCompositeDataSet):
+            self._pass(places, output)
+            return
+
+        def passed(block: Any, _number: int) -> Any:
+            made = block.NewInstance()
+            self._pass(block, made)
+            return made
+
+        fill(output, places, passed)
+        if self._values["PassFieldArrays"]:
+            output.GetFieldData().PassData(places.GetFieldData())
+
+    def _pass(self, places: Any, output: Any) -> None:
+        output.CopyStructure(places)
+        for name, attributes, to in (("PassPointArrays", places.GetPointData(), output.GetPointData()),
+                                     ("PassCellArrays", places.GetCellData(), output.GetCellData())):
+            if self._values[name]:
+                to.PassData(attributes)
+            elif attributes.HasArray("vtkGhostType"):
+                to.AddArray(attributes.GetArray("vtkGhostType"))
+        if self._values["PassFieldArrays"]:
+            output.GetFieldData().PassData(places.GetFieldData())
+
+    def _compute(self, data: Any, output: Any) -> list[_library.Message]:
+        samples = self._loaded(data, 0, None, lambda: _datasets.samples_at(data, with_arrays=False), (0.0, LOADED))
+        self._count_samples(samples)
+        self._make_places(samples, output)
+        arrays, left_out = shared_arrays(data, self._kept[0][2])
+        blocks = [block for block in _datasets.leaves(output) if block.IsA("vtkDataSet")]
+        places = [positions_of(as_numpy(_datasets.point_positions(block))) for block in blocks]
+        keeps_types = self._values["Interpolation"] == CONSTANTS["method"]["NEAREST"]
+        numbers = {name: readable(name, array.numbers.astype(np.float64) if keeps_types and array.data_type == DOUBLE
+                                  else array.numbers) for name, array in arrays.items()}
+        strategy = self._values["NullPointsStrategy"]
+        outside = {NULL_VALUE: self._values["NullValue"], CLOSEST_POINT: "nearest"}.get(strategy, math.nan)
+        values, _, kinds = self._probe(
+            samples, np.concatenate(places) if places else np.empty((0, 3)), numbers, outside, False)
+        are_null = (kinds & _library.PLACE_OUTSIDE) != 0
+        self._add(blocks, {name: (array, values[name], array.data_type if keeps_types else DOUBLE)
+                           for name, array in arrays.items()}, are_null)
+        is_lost = self._values["MarkBlankPointsAndCells"] or strategy != CLOSEST_POINT
+        return [*self._describe_skipped(samples, "There are no values. Connect samples with finite positions.",
+                                        "Values there are those of the samples around."),
+                *_describe_lacking(arrays, are_null if is_lost else are_null[:0]),
+                *self._describe_flat(kinds, "values are those at the nearest point of it."),
+                *_describe_left_out(left_out)]
+
+    def _add(self, blocks: list[Any], results: dict[str, tuple[SharedArray, np.ndarray, int]], are_null: np.ndarray
+             ) -> None:
+        """Adds results of a type, for all points of all blocks, and the marks of null points."""
+        first = 0
+        for block in blocks:
+            here = slice(first, first + block.GetNumberOfPoints())
+            attributes = block.GetPointData()
+            for name, (array, values, data_type) in results.items():
+                added = _typed(name, values[here], data_type)
+                added.CopyComponentNames(array.first)
+                index = attributes.AddArray(added)
+                if array.use >= 0:
+                    attributes.SetActiveAttribute(index, array.use)
+            if self._values["NullPointsStrategy"] == MASK_POINTS:
+                attributes.AddArray(_typed(self._values["ValidPointsMaskArrayName"], ~are_null[here], VTK_CHAR))
+            if self._values["MarkBlankPointsAndCells"]:
+                hide_points(block, are_null[here])
+            first = here.stop
+
+
+def _typed(name: str, numbers: np.ndarray, data_type: int) -> Any:
+    """An array of exactly this type."""
+    array = as_vtk(PACKAGE, name, numbers.view(np.uint8) if numbers.dtype == bool else numbers)
+    if array.GetDataType() == data_type:
+        return array
+    converted = vtkDataArray.CreateDataArray(data_type)
+    converted.DeepCopy(array)
+    converted.SetName(name)  # bits lose it
+    return converted
+
+
+def _describe_lacking(arrays: dict, are_null: np.ndarray) -> list[_library.Message]:
+    """Messages about values that are missing everywhere."""
+    messages = []
+    if not arrays:
+        messages.append(_library.Message(
+            "The samples have no arrays of numbers, nor has the output. Load arrays in the reader.", is_warning=True,
+            cause="no arrays"))
+    if len(are_null) and are_null.all():
+        messages.append(_library.Message(
+            f"All {len(are_null)} points are outside of the samples, where there are no values. Move them among the"
+            " samples.", is_warning=True, cause="all outside"))
+    return messages
+
+
+def _describe_left_out(names: list[str]) -> list[_library.Message]:
+    listed = ", ".join(f'"{name}"' for name in names)
+    return [] if not names else [_library.Message(
+        f"Left out of the output: {listed}. Only arrays of numbers are interpolated that all blocks have, with the same"
+        " components.", is_warning=False, cause=f"left out {listed}")]
+
+
+for _name, _number in CONSTANTS["method"].items():
+    setattr(vtkScatteredProbeFilter, _name, _number)
+
+
+@with_properties("ScatteredLine")
+class vtkScatteredLineFilter(vtkScatteredProbeFilter):
+    """Interpolates scattered samples along a line: see the compiled class of this name."""
+
+    SAMPLES_PORT = 0
+
+    def _output_class(self, data: Any) -> type:
+        return vtkPolyData
+
+    def RequestInformation(self, _request, _inputs, outputs):
+        outputs.GetInformationObject(0).Set(vtkAlgorithm.CAN_HANDLE_PIECE_REQUEST(), 1)
+        return 1
+
+    def _make_places(self, samples: Samples, output: Any) -> None:
+        if self.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.UPDATE_PIECE_NUMBER()) > 0:
+            return
+        count = self._values["Resolution"] + 1
+        begin, end = (np.array(self._values[name]) for name in ("Point1", "Point2"))
+        shares = np.arange(count) / self._values["Resolution"]
+        points, lines = vtkPoints(), vtkCellArray()
+        points.SetData(as_vtk(PACKAGE, "Points", (1.0 - shares[:, None]) * begin + shares[:, None] * end))
+        lines.SetData(*(numpy_to_vtkIdTypeArray(ids, deep=True) for ids in (np.array([0, count]), np.arange(count))))
+        output.SetPoints(points)
+        output.SetLines(lines)
+        output.GetPointData().AddArray(as_vtk(PACKAGE, "arc_length", shares * _length(end - begin)))
+
+
+def _length(vector: np.ndarray) -> float:
+    """Scaled by the greatest component, as std::hypot() does it, for the same bytes as of the compiled class."""
+    most = np.abs(vector).max()
+    x, y, z = vector / most if most > 0.0 else vector
+    return float(most * math.sqrt(x * x + y * y + z * z))
+
+
+@with_properties("ScatteredGrid")
+class vtkScatteredGridFilter(vtkScatteredProbeFilter):
+    """Interpolates scattered samples at the points of an image: see the compiled class of this name."""
+
+    SAMPLES_PORT = 0
+
+    def _output_class(self, data: Any) -> type:
+        return vtkImageData
+
+    def RequestInformation(self, request, inputs, outputs):
+        super().RequestInformation(request, inputs, outputs)
+        info = outputs.GetInformationObject(0)
+        extent = [end for count in self._values["SamplingDimensions"] for end in (0, max(count, 1) - 1)]
+        info.Set(vtkStreamingDemandDrivenPipeline.WHOLE_EXTENT(), extent, 6)
+        info.Set(vtkAlgorithm.CAN_PRODUCE_SUB_EXTENT(), 1)
+        for key in (vtkDataObject.ORIGIN(), vtkDataObject.SPACING(), vtkDataObject.DIRECTION()):
+            info.Remove(key)  # those of samples that are an image
+        return 1
+
+    def _make_places(self, samples: Samples, output: Any) -> None:
+        pipeline, info = vtkStreamingDemandDrivenPipeline, self.GetOutputInformation(0)
+        bounds = _bounds_of(samples) if self._values["UseInputBounds"] else self._values["SamplingBounds"]
+        if min(self._values["SamplingDimensions"]) < 1:
+            raise ValueError("The sampling dimensions are not all positive. Set each to the number of points along its"
+                             " axis.")
+        whole, extent = (list(info.Get(key)) for key in (pipeline.WHOLE_EXTENT(), pipeline.UPDATE_EXTENT()))
+        origin, spacing = [], []
+        for axis, (least, greatest) in enumerate(zip(bounds[::2], bounds[1::2])):
+            length = greatest - least
+            if not 0.0 <= length < math.inf:
+                raise ValueError("The sampling bounds are not three ascending pairs of numbers. Set the least and the"
+                                 " greatest x, y and z.")
+            if length == 0.0:
+                whole[2 * axis + 1] = 0
+                extent[2 * axis + 1] = min(extent[2 * axis + 1], 0)
+            steps = whole[2 * axis + 1]
+            spacing.append(length / steps if steps > 0 else 1.0)
+            origin.append(least + (0.0 if steps > 0 else 0.5 * length))
+        if any(low > high for low, high in zip(extent[::2], extent[1::2])):
+            extent = [0, -1, 0, -1, 0, -1]  # of no points, for any axis
+        # So that the next update does not take missing layers for missing data.
+        info.Set(pipeline.WHOLE_EXTENT(), whole, 6)
+        info.Set(pipeline.UPDATE_EXTENT(), extent, 6)
+        output.SetOrigin(origin)
+        output.SetSpacing(spacing)
+        output.SetExtent(extent)
+
+
+def _bounds_of(samples: Samples) -> list[float]:
+    """The bounds of the samples in use: least and greatest x, y and z."""
+    positions = as_numpy(samples._positions)
+    are_used = np.isfinite(positions).all(axis=1)
+    if samples._excluded is not None:
+        are_used &= ~samples._excluded
+    if not are_used.any():
+        raise ValueError("All samples are hidden or have no finite position. Connect samples with finite positions.")
+    used = positions if are_used.all() else positions[are_used]
+    return [float(end) for axis in range(3) for end in (used[:, axis].min(), used[:, axis].max())]

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The filter in Python that slices samples: see the compiled class of this name."""
+
+from __future__ import annotations
+
+from typing import Any, Optional
+
+from vtkmodules.vtkCommonCore import vtkWeakReference
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+from . import _datasets, _library
+from ._cuts import cut_by, describe_empty
+from ._options import OF_SLICES, make_slice_options, property_name
+from ._progress import part
+from ._slices import Slice, arrays_of, make_slice
+from ._vtk_algorithm import ContourValues, ScatteredAlgorithm, in_properties, with_counts, with_properties
+
+LOADED = 0.2  # share of the progress
+
+
+@with_properties("ScatteredSlice")
+@with_counts
+class vtkScatteredSliceFilter(ContourValues, ScatteredAlgorithm):
+    """Slices scattered samples by an implicit function: see the compiled class of this name."""
+
+    COUNTS = ("Samples", "SkippedSamples", "ExtractedPoints")
+    FITS, LINEAR = range(2)
+
+    def __init__(self):
+        super().__init__()
+        self._function: Any = None
+        self._observer = 0
+
+    def SetCutFunction(self, function: Any) -> None:
+        if function is self._function:
+            return
+        if self._function is not None:
+            self._function.RemoveObserver(self._observer)
+        self._function = function
+        if function is not None:
+            self._observer = function.AddObserver("ModifiedEvent", _modifying(self))
+        self.Modified()
+
+    def GetCutFunction(self) -> Any:
+        return self._function
+
+    def _output_class(self, data: Any) -> type:
+        return vtkPolyData
+
+    def _compute(self, data: Any, output: Any) -> list[_library.Message]:
+        if self._function is None:
+            raise ValueError("There is no cut function. Set a plane or another one.")
+        samples = self._loaded(data, 0, None, lambda: _datasets.samples_at(data, with_arrays=True), (0.0, LOADED))
+        cut, level = cut_by(self._function)
+        levels = [level + value for value in self.GetValues()]
+        options = make_slice_options({name: self._values[property_name(name)] for name in OF_SLICES})
+        options.keep_tetrahedra = self._values["KeepTree"]
+        try:
+            made = make_slice(samples, cut, levels, options, arrays_of(samples, None),
+                              self._values["Interpolation"] == self.FITS, None, part(self._advance, LOADED, 1.0))
+        except ValueError as error:
+            raise ValueError(in_properties(str(error), self._values["UsePanelNames"])) from None
+        output.ShallowCopy(made.isosurface.polydata)
+        self._count_samples(samples)
+        self._counts["ExtractedPoints"] = len(made.isosurface)
+        return [*self._describe_skipped(samples, "There is no slice. Connect samples with finite positions.",
+                                        "The slice there is that of the samples around."),
+                *_describe(made, levels, cut.is_plane)]
+
+
+def _modifying(slice_: vtkScatteredSliceFilter) -> Any:
+    """Calls Modified() of a filter while it lives, because GetMTime() cannot be overridden in Python."""
+    filter_ = vtkWeakReference()
+    filter_.Set(slice_)
+
+    def modify(_caller: Any, _event: str) -> None:
+        alive = filter_.Get()
+        if alive is not None:
+            alive.Modified()
+
+    return modify
+
+
+def _describe(made: Slice, levels: list[float], is_plane: bool) -> list[_library.Message]:
+    text: Optional[str] = None
+    if len(made.isosurface) == 0:
+        text = describe_empty(
+            levels, *made.range, made.dropped, is_plane,
+            beside="The slice is empty: all samples are on one side of it. Move it among the samples.")
+    return [] if text is None else [_library.Message(text, is_warning=True, cause="empty slice")]
