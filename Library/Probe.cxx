@@ -18,17 +18,13 @@ namespace isopoint
 namespace
 {
 
-/// A number as a type; 0 if the type does not have it.
+/// A number as a type: without a fraction, and 0 beyond the range of integers.
 template <class T>
 T numberAs(double number)
 {
   if constexpr (std::is_floating_point_v<T>)
   {
     return static_cast<T>(number);
-  }
-  if (number != std::trunc(number))
-  {
-    return T{ 0 };
   }
   // The greatest wide integers are no double, but the next power of two is.
   const bool isInside = number >= static_cast<double>(std::numeric_limits<T>::lowest()) &&

@@ -269,17 +269,19 @@ enum
  *
  * A place is outside if the 27 nearest samples are on one side of it, or if the nearest one is
  * farther than 0.9 times the distance between this one and the eighth nearest to it. A place at a
- * sample, or within a thousandth of this distance, is inside. Where samples are flat, results are those at the nearest point of their plane or line, and
- * gradients have no part across. A sample whose value is not finite does not exist for its array;
- * one array then may be outside where others are not, and gets the number, whatever `outside` says,
- * where none of the nearest samples (64 with BLEND, 48 with CUBIC, otherwise 27) has a value.
- * Coincident samples count as one, with the mean value; NEAREST takes the first that has one. BLEND fits all components of an array alike, so that turned vectors give turned
- * results; its values leave the range of the samples around only at extrema that these show. Values
- * of integer types are taken as rounded. Coordinates that are not finite give places outside.
- * Outside, gradients are NaN for NUMBER and 0 for NEAREST, and integers of NEAREST are 0 if the
- * number is not one of their type. Places may be in any order; those in the order of the tree are no
- * faster. O(log n) for each place after O(n) for the first, except where very many samples have the
- * same distance. Coordinates whose squared distances overflow count as not finite.
+ * sample, or within a thousandth of this distance, is inside. Where samples are flat, results are
+ * those at the nearest point of their plane or line, and gradients have no part across. A sample
+ * whose value is not finite does not exist for its array; one array then may be outside where others
+ * are not, and gets the number, whatever `outside` says, where none of the nearest samples (64 with
+ * BLEND, 48 with CUBIC, otherwise 27) has a value. Coincident samples count as one, with the mean
+ * value; NEAREST takes the first that has one. BLEND fits all components of an array alike, so that
+ * turned vectors give turned results; its values leave the range of the samples around only at
+ * extrema that these show. Values of integer types are taken as rounded. Coordinates that are not
+ * finite give places outside. Outside, gradients are NaN for NUMBER and 0 for NEAREST. Integers of
+ * NEAREST get the number without its fraction, or 0 if their type does not hold it. Places may be in
+ * any order; those in the order of the tree are no faster. O(log n) for each place after O(n) for
+ * the first, except where very many samples have the same distance. Coordinates whose squared
+ * distances overflow count as not finite.
  * @param places of type float or double, three components
  * @param arrays `array_count` arrays, each of as many tuples as there were samples
  * @param options null for the defaults

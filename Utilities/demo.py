@@ -180,7 +180,7 @@ def contoured(source, array, isovalue, is_mesh):
     start = time.perf_counter()
     filter_.UpdatePipeline()
     seconds = time.perf_counter() - start
-    output = filter_.GetClientSideObject().GetOutput()
+    output = filter_.GetClientSideObject().GetOutputDataObject(0)
     say("samples           %d" % source.GetDataInformation().GetNumberOfPoints())
     if is_mesh:
         say("triangles         %d" % output.GetNumberOfPolys())
@@ -211,7 +211,7 @@ def main(plugin):
 
     is_mesh = os.environ.get("ISOPOINTS_FILTER") == "triangles"
     isopoints, warnings = contoured(source, array, float(isovalue), is_mesh)
-    output = isopoints.GetClientSideObject().GetOutput()
+    output = isopoints.GetClientSideObject().GetOutputDataObject(0)
     if output.GetNumberOfPoints() == 0:
         limits = source.PointData[array].GetRange()
         fail("there are no isopoints: the values of %s range from %g to %g" % (array, *limits))
