@@ -61,7 +61,7 @@ ExtractedIsosurface partOnRank(const Execution& execution, SharedRanks<TSample>&
       vertexRanks[vertex] = ranks.ownerOf(firstPlaceOf(tree, leaves));
     });
   const auto rank = static_cast<std::size_t>(ranks.processes().rank());
-  SurfacePart part = SurfacePartChoice(all.triangles, vertexRanks, rank).choose(rings);
+  SurfacePart part = partOfRank(execution, all.triangles, vertexRanks, rank, rings);
   ExtractedIsosurface result = withSplats(execution, tree,
     chosenIsopoints(execution, all.surface, part.vertices), all.splats, part.vertices);
   result.normals = chosenOf(execution, all.normals, part.vertices);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <mutex>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -37,6 +38,19 @@ std::vector<std::size_t> beginsOf(const std::vector<std::vector<T>>& lists, std:
   {
     begins.push_back(begins.back() + list.size());
   }
+  return begins;
+}
+
+/// Offsets of concatenated lists, and the end of the last one.
+/// @param sizeOf(list) called from any thread; takes at most microseconds
+/// @throws Aborted, std::bad_alloc, and whatever `sizeOf` throws
+template <class SizeOf>
+std::vector<std::size_t> beginsOfLists(
+  const Execution& execution, std::size_t listCount, const SizeOf& sizeOf)
+{
+  std::vector<std::size_t> begins(listCount + 1, 0);
+  forEachIndex(execution, listCount, [&](std::size_t i) { begins[i + 1] = sizeOf(i); });
+  forEachInOrder(execution, listCount, [&](std::size_t i) { begins[i + 1] += begins[i]; });
   return begins;
 }
 
@@ -204,6 +218,53 @@ void keepUnique(std::vector<T>& list)
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
+/// Sorts elements of which few have the same key. Reuses memory.
+template <class T>
+class BucketSort
+{
+public:
+  /// O(n + keyCount) if few elements have the same key, and O(n log n)
+  /// @param key(element) in [firstKey, firstKey + keyCount), monotonic in the order of elements
+  template <class Key>
+  void operator()(T* first, T* last, std::uint64_t firstKey, std::uint64_t keyCount, const Key& key)
+  {
+    const auto count = static_cast<std::size_t>(last - first);
+    if (keyCount > 2 * count || count < 2)
+    {
+      std::sort(first, last);
+      return;
+    }
+    this->Ends.assign(static_cast<std::size_t>(keyCount) + 1, 0);
+    this->Copy.assign(first, last);
+    const auto endOf = [&](const T& element) -> std::size_t&
+    { return this->Ends[static_cast<std::size_t>(key(element) - firstKey) + 1]; };
+    for (const T& element : this->Copy)
+    {
+      ++endOf(element);
+    }
+    std::partial_sum(this->Ends.begin(), this->Ends.end(), this->Ends.begin());
+    // From the begin of each key's elements to their end.
+    for (const T& element : this->Copy)
+    {
+      first[(&endOf(element))[-1]++] = element;
+    }
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < keyCount; ++i)
+    {
+      const std::size_t end = this->Ends[i];
+      if (end - begin > 1)
+      {
+        std::sort(first + begin, first + end);
+      }
+      begin = end;
+    }
+  }
+
+private:
+  std::vector<T> Copy;
+  std::vector<std::size_t> Ends;
+};
+
 /// A sorted copy without duplicates; the threads sort one bucket of keys each. O(n log n)
 /// @param key(element) a number below keyCount, monotonic in the order of elements
 /// @throws Aborted, std::bad_alloc
@@ -255,11 +316,12 @@ std::vector<T> sortedUnique(const Execution& execution, const std::vector<T>& el
   forBatches(execution, bucketCount, 4, 1,
     [&](std::size_t begin, std::size_t end)
     {
+      BucketSort<T> sort;
       for (std::size_t bucket = begin; bucket < end; ++bucket)
       {
-        const auto first = dealt.begin() + static_cast<std::ptrdiff_t>(ends[bucket]);
-        const auto last = dealt.begin() + static_cast<std::ptrdiff_t>(ends[bucket + 1]);
-        std::sort(first, last);
+        T* const first = dealt.data() + ends[bucket];
+        T* const last = dealt.data() + ends[bucket + 1];
+        sort(first, last, bucket * keysPerBucket, keysPerBucket, key);
         counts[bucket] = static_cast<std::size_t>(std::unique(first, last) - first);
       }
     });
@@ -268,9 +330,12 @@ std::vector<T> sortedUnique(const Execution& execution, const std::vector<T>& el
   for (std::size_t bucket = 0; bucket < bucketCount; ++bucket)
   {
     throwIfAborted(execution);
-    const auto first = dealt.begin() + static_cast<std::ptrdiff_t>(ends[bucket]);
-    std::copy(first, first + static_cast<std::ptrdiff_t>(counts[bucket]),
-      dealt.begin() + static_cast<std::ptrdiff_t>(size));
+    if (size < ends[bucket])
+    {
+      const auto first = dealt.begin() + static_cast<std::ptrdiff_t>(ends[bucket]);
+      std::copy(first, first + static_cast<std::ptrdiff_t>(counts[bucket]),
+        dealt.begin() + static_cast<std::ptrdiff_t>(size));
+    }
     size += counts[bucket];
   }
   dealt.resize(size);

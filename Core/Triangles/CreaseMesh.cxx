@@ -104,7 +104,7 @@ bool slideAt(
 {
   for (const std::size_t vertex : mesh.facet(inverted).corners)
   {
-    std::vector<std::size_t> along = mesh.neighborsOf(vertex);
+    std::vector<std::size_t> along = mesh.connectivity().neighborsOf(vertex);
     along.erase(std::remove_if(along.begin(), along.end(),
                   [firstOnCrease](std::size_t neighbor) { return neighbor < firstOnCrease; }),
       along.end());
@@ -132,9 +132,9 @@ bool slideAt(
 /// @param firstOnCrease the first vertex on a crease; all following vertices are on creases
 /// @throws std::bad_alloc, Aborted
 std::vector<Facet> untangleFacets(const Execution& execution, CreaseSurface& whole,
-  std::vector<Facet> facets, std::size_t firstOnCrease)
+  const std::vector<Facet>& facets, std::size_t firstOnCrease)
 {
-  FacetMesh mesh(execution, whole.surface.positions, whole.isInner, std::move(facets));
+  FacetMesh mesh(execution, whole.surface.positions, whole.isInner, facets);
   constexpr int maxRounds = 5;
   bool isAnyMerged = true;
   mesh.untangle();
@@ -158,15 +158,13 @@ std::vector<Facet> untangleFacets(const Execution& execution, CreaseSurface& who
 /// Whether a vertex is on all the pieces of another vertex.
 bool isOnPiecesOf(const FacetMesh& mesh, std::size_t vertex, std::size_t other)
 {
-  const auto isOnPieceOf = [&](std::size_t otherFacet)
+  const auto isOffAll = [&](HalfEdge ofOther)
   {
-    const std::vector<std::size_t>& facets = mesh.facetsAround(vertex);
-    return std::any_of(facets.begin(), facets.end(),
-      [&](std::size_t facet)
-      { return dot(mesh.facet(facet).normal, mesh.facet(otherFacet).normal) >= maxCreaseCosine; });
+    const auto isOnPiece = [&](HalfEdge side)
+    { return dot(mesh.facet(side / 3).normal, mesh.facet(ofOther / 3).normal) >= maxCreaseCosine; };
+    return !mesh.connectivity().outgoing().anyAt(vertex, isOnPiece);
   };
-  const std::vector<std::size_t>& facets = mesh.facetsAround(other);
-  return std::all_of(facets.begin(), facets.end(), isOnPieceOf);
+  return !mesh.connectivity().outgoing().anyAt(other, isOffAll);
 }
 
 /// Collapses short edges, shortest first, if the facets stay on their pieces.
@@ -176,22 +174,19 @@ std::vector<Facet> withoutShortEdges(
 {
   for (int round = 0; round < shortEdgeRounds; ++round)
   {
-    std::vector<SurfaceTriangle> triangles(facets.size());
-    forEachIndex(
-      execution, facets.size(), [&](std::size_t i) { triangles[i] = facets[i].corners; });
-    FacetMesh mesh(execution, whole.surface.positions, whole.isInner, std::move(facets));
+    FacetMesh mesh(execution, whole.surface.positions, whole.isInner, facets);
     const auto staysOnPiece = [&](const Facet& moved)
     {
       constexpr double minCosine = 0.95;
       return mesh.signedArea(moved) >= minCosine * lengthOf(mesh.areaNormal(moved.corners));
     };
-    for (const auto& [a, b] : shortEdges(execution, whole.surface.positions, triangles))
+    for (const auto& [a, b] : shortEdges(execution, whole.surface.positions, mesh.connectivity()))
     {
       throwIfAborted(execution);
       for (const auto& [from, to] : { std::pair(b, a), std::pair(a, b) })
       {
-        if (mesh.facetAt(from, to) && isOnPiecesOf(mesh, to, from) &&
-            mesh.collapse(from, to, staysOnPiece))
+        if (mesh.connectivity().halfEdgeBetween(from, to) != noHalfEdge &&
+            isOnPiecesOf(mesh, to, from) && mesh.collapse(from, to, staysOnPiece))
         {
           break;
         }
@@ -221,8 +216,8 @@ public:
       return;
     }
     const std::size_t firstOnCrease = this->Whole.surface.size();
-    facets = splitAtCreases(this->Exec, this->Whole, std::move(facets));
-    facets = untangleFacets(this->Exec, this->Whole, std::move(facets), firstOnCrease);
+    facets = splitAtCreases(this->Exec, this->Whole, facets);
+    facets = untangleFacets(this->Exec, this->Whole, facets, firstOnCrease);
     if (request.regularizes)
     {
       facets = withoutShortEdges(this->Exec, this->Whole, std::move(facets));
@@ -243,19 +238,17 @@ private:
     const std::vector<char> areNear =
       areAtCreases(this->Exec, this->Whole.surface.fits, this->Triangles);
     this->Whole.isInner.assign(areNear.begin(), areNear.end());
-    std::vector<Facet> facets;
     std::vector<char> areTaken(this->Triangles.size(), 0);
-    forEachInOrder(this->Exec, areTaken.size(),
+    forEachIndex(this->Exec, areTaken.size(),
       [&](std::size_t i)
       {
         const SurfaceTriangle& triangle = this->Triangles[i];
-        if (std::any_of(triangle.begin(), triangle.end(),
-              [&](std::size_t corner) { return areNear[corner] != 0; }))
-        {
-          areTaken[i] = 1;
-          facets.push_back(this->Whole.facetOf(triangle));
-        }
+        areTaken[i] = areNear[triangle[0]] || areNear[triangle[1]] || areNear[triangle[2]] ? 1 : 0;
       });
+    const std::vector<std::size_t> taken = markedOf(this->Exec, areTaken);
+    std::vector<Facet> facets(taken.size());
+    forEachIndex(this->Exec, taken.size(),
+      [&](std::size_t i) { facets[i] = this->Whole.facetOf(this->Triangles[taken[i]]); });
     dropMarked(this->Exec, areTaken, this->Triangles);
     return facets;
   }
@@ -315,18 +308,19 @@ private:
 std::vector<char> areAtCreases(const Execution& execution, const std::vector<LocalFit>& fits,
   const std::vector<SurfaceTriangle>& triangles)
 {
-  std::vector<char> areAtCrease(fits.size(), 0);
-  forEachInOrder(execution, triangles.size(),
+  const std::vector<std::size_t> found = itemsThat(execution, triangles.size(),
     [&](std::size_t i)
     {
-      const SurfaceTriangle& triangle = triangles[i];
-      if (std::any_of(triangle.begin(), triangle.end(),
-            [&](std::size_t corner) { return fits[corner].order == FitOrder::Crease; }))
+      return std::any_of(triangles[i].begin(), triangles[i].end(),
+        [&](std::size_t corner) { return fits[corner].order == FitOrder::Crease; });
+    });
+  std::vector<char> areAtCrease(fits.size(), 0);
+  forEachInOrder(execution, found.size(),
+    [&](std::size_t i)
+    {
+      for (const std::size_t corner : triangles[found[i]])
       {
-        for (const std::size_t corner : triangle)
-        {
-          areAtCrease[corner] = 1;
-        }
+        areAtCrease[corner] = 1;
       }
     });
   return areAtCrease;

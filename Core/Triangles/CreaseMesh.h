@@ -76,6 +76,6 @@ void meshCreases(const Execution& execution, Isosurface& surface,
 /// @returns the facets, each on one piece and with its normal
 /// @throws std::bad_alloc, Aborted
 std::vector<Facet> splitAtCreases(
-  const Execution& execution, CreaseSurface& whole, std::vector<Facet> facets);
+  const Execution& execution, CreaseSurface& whole, const std::vector<Facet>& facets);
 
 } // namespace isopoint

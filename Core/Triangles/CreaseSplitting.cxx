@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -35,14 +34,14 @@ public:
   }
 
   /// Merges lost vertices with the nearest neighbor that inverts no triangle. Sets Pieces.
-  std::vector<Facet> withoutLost(std::vector<Facet> facets)
+  std::vector<Facet> withoutLost(const std::vector<Facet>& facets)
   {
-    FacetMesh mesh(
-      this->Exec, this->Whole.surface.positions, this->Whole.isInner, std::move(facets));
+    FacetMesh mesh(this->Exec, this->Whole.surface.positions, this->Whole.isInner, facets);
     forEachInOrder(this->Exec, this->Whole.isInner.size(),
       [&](std::size_t vertex)
       {
-        if (this->Whole.isInner[vertex] && this->isLost(vertex, mesh.neighborsOf(vertex)))
+        if (this->Whole.isInner[vertex] &&
+            this->isLost(vertex, mesh.connectivity().neighborsOf(vertex)))
         {
           this->mergeWithNearest(mesh, vertex);
         }
@@ -57,29 +56,39 @@ public:
 
   std::vector<Facet> split(const std::vector<Facet>& facets)
   {
-    std::vector<Edge> edges;
-    forEachInOrder(this->Exec, facets.size(),
-      [&](std::size_t facet)
+    constexpr std::size_t grain = 4096;
+    this->Edges = collected<Edge>(this->Exec, { facets.size(), 4 * grain, grain },
+      [&](std::size_t begin, std::size_t end, std::vector<Edge>& found)
       {
-        const SurfaceTriangle& corners = facets[facet].corners;
-        for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t i = 3 * begin; i < 3 * end; ++i)
         {
-          const Edge edge = std::minmax({ corners[i], corners[(i + 1) % 3] });
+          const SurfaceTriangle& corners = facets[i / 3].corners;
+          const Edge edge = std::minmax({ corners[i % 3], corners[(i + 1) % 3] });
           if (this->isAcrossCrease(edge.first, edge.second))
           {
-            edges.push_back(edge);
+            found.push_back(edge);
           }
         }
       });
-    edges = sortedUnique(this->Exec, edges, this->Whole.surface.size(),
+    this->Edges = sortedUnique(this->Exec, this->Edges, this->Whole.surface.size(),
       [](const Edge& edge) { return static_cast<std::uint64_t>(edge.first); });
-    forEachInOrder(this->Exec, edges.size(),
+    std::vector<std::optional<Vector>> places(this->Edges.size());
+    forBatches(this->Exec, places.size(), 256, 64,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          places[i] = this->placeOnCrease(this->Edges[i].first, this->Edges[i].second);
+        }
+      });
+    this->OnEdges.resize(places.size());
+    forEachInOrder(this->Exec, places.size(),
       [&](std::size_t i)
       {
-        const auto& [a, b] = edges[i];
-        if (const std::optional<Vector> place = this->placeOnCrease(a, b))
+        if (places[i])
         {
-          this->OnCreases[{ a, b }] = this->Whole.addVertex(a, *place, { a, b });
+          const auto& [a, b] = this->Edges[i];
+          this->OnEdges[i] = this->Whole.addVertex(a, *places[i], { a, b });
         }
       });
     std::vector<Facet> parts;
@@ -206,7 +215,7 @@ private:
     const FacetMesh& mesh, std::size_t vertex, const IsWanted& isWanted) const
   {
     std::vector<std::pair<double, std::size_t>> byDistance;
-    for (const std::size_t neighbor : mesh.neighborsOf(vertex))
+    for (const std::size_t neighbor : mesh.connectivity().neighborsOf(vertex))
     {
       if (isWanted(neighbor))
       {
@@ -334,23 +343,27 @@ private:
 
   std::optional<std::size_t> vertexOnCrease(std::size_t a, std::size_t b) const
   {
-    const auto found = this->OnCreases.find(std::minmax(a, b));
-    return found != this->OnCreases.end() ? std::optional(found->second) : std::nullopt;
+    const Edge edge = std::minmax(a, b);
+    const auto found = std::lower_bound(this->Edges.begin(), this->Edges.end(), edge);
+    return found != this->Edges.end() && *found == edge
+             ? this->OnEdges[static_cast<std::size_t>(found - this->Edges.begin())]
+             : std::nullopt;
   }
 
   const Execution& Exec;
   CreaseSurface& Whole;
-  std::vector<std::size_t> Pieces;       // the vertex whose fit describes a vertex's piece
-  std::map<Edge, std::size_t> OnCreases; // vertices, by the edges that they are on
+  std::vector<std::size_t> Pieces; // the vertex whose fit describes a vertex's piece
+  std::vector<Edge> Edges;         // across creases, ordered
+  std::vector<std::optional<std::size_t>> OnEdges; // the vertex on each of these
 };
 
 } // namespace
 
 std::vector<Facet> splitAtCreases(
-  const Execution& execution, CreaseSurface& whole, std::vector<Facet> facets)
+  const Execution& execution, CreaseSurface& whole, const std::vector<Facet>& facets)
 {
   CreaseSplitter splitter(execution, whole);
-  return splitter.split(splitter.withoutLost(std::move(facets)));
+  return splitter.split(splitter.withoutLost(facets));
 }
 
 } // namespace isopoint

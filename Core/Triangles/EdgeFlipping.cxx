@@ -2,12 +2,13 @@
 #include "Core/Triangles/EdgeFlipping.h"
 
 #include "Core/Base/Lists.h"
+#include "Core/Triangles/SurfaceMesh.h"
+#include "Core/Triangles/VertexNormals.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <utility>
 
 namespace isopoint
@@ -15,74 +16,104 @@ namespace isopoint
 namespace
 {
 
-/// Three times the number of a triangle, plus the corner where the side begins, counterclockwise.
-using Side = std::size_t;
-
 /// The minimum cosine between the normals of an upright triangle and of its vertices.
 constexpr double upright = 0.6;
-
-constexpr Side noSide = std::numeric_limits<Side>::max();
-
-Side nextOf(Side side)
-{
-  return side % 3 == 2 ? side - 2 : side + 1;
-}
-
-Side lastOf(Side side)
-{
-  return nextOf(nextOf(side));
-}
 
 class EdgeFlipper
 {
 public:
   EdgeFlipper(const Execution& execution, const std::vector<Vector>& positions,
-    const std::vector<char>& areKept, std::vector<SurfaceTriangle>& triangles)
+    const std::vector<char>& areKept, std::vector<SurfaceTriangle> triangles)
     : Exec(execution)
     , Positions(positions)
     , AreKept(areKept)
-    , Triangles(triangles)
-    , Twins(3 * triangles.size(), noSide)
-    , Normals(positions.size())
-    , Degrees(positions.size(), 0)
+    , Mesh(execution, std::move(triangles), positions.size())
+    , Normals(areaNormals(execution, positions, this->Mesh.triangles(), this->Mesh.outgoing()))
+    , States(3 * this->Mesh.triangles().size(), State::Suspect)
   {
-    this->findTwins();
-    this->findNormals();
+    forEachIndex(execution, this->Normals.size(),
+      [this](std::size_t vertex)
+      {
+        const double length = lengthOf(this->Normals[vertex]);
+        this->Normals[vertex] = length > 0.0 ? 1.0 / length * this->Normals[vertex] : Vector{};
+      });
   }
 
-  void flip()
+  /// Flips edges in the order of their sides, in rounds. All threads choose among the suspects, and
+  /// the calling thread flips.
+  std::vector<SurfaceTriangle> flip()
   {
     constexpr int maxRounds = 10;
-    std::vector<char> isSuspect(this->Twins.size(), 1);
     bool isAnyFlipped = true;
     for (int round = 0; round < maxRounds && isAnyFlipped; ++round)
     {
       isAnyFlipped = false;
-      forEachInOrder(this->Exec, this->Twins.size(),
-        [&](Side side)
+      forEachIndex(this->Exec, this->States.size(), [this](HalfEdge side) { this->choose(side); });
+      forEachInOrder(this->Exec, this->States.size(),
+        [&](HalfEdge side)
         {
-          const Side twin = this->Twins[side];
-          if (!isSuspect[side] || twin == noSide)
+          if (this->States[side] != State::Seen)
           {
-            return;
-          }
-          isSuspect[side] = isSuspect[twin] = 0;
-          if (this->isToFlip(side, twin))
-          {
-            this->flipAt(side, twin);
-            this->suspectAround(side, isSuspect);
-            this->suspectAround(twin, isSuspect);
-            isAnyFlipped = true;
+            isAnyFlipped = this->flipIfImproved(side) || isAnyFlipped;
           }
         });
     }
+    return std::move(this->Mesh).takeTriangles();
   }
 
 private:
-  std::size_t startOf(Side side) const { return this->Triangles[side / 3][side % 3]; }
-  std::size_t endOf(Side side) const { return this->startOf(nextOf(side)); }
+  enum class State : char
+  {
+    Suspect, // one of the triangles at the side changed
+    Chosen,  // a flip improves them
+    Seen     // none does
+  };
 
-  std::size_t oppositeOf(Side side) const { return this->startOf(lastOf(side)); }
+  /// Examines a suspect edge, by its lower side.
+  void choose(HalfEdge side)
+  {
+    const HalfEdge twin = this->Mesh.twinOf(side);
+    if (twin == noHalfEdge)
+    {
+      this->States[side] = State::Seen;
+    }
+    else if (side < twin)
+    {
+      const HalfEdge first = this->States[side] == State::Suspect ? side : twin;
+      const bool isChosen = this->States[first] == State::Suspect && this->isImproved(side);
+      this->States[side] = this->States[twin] = State::Seen;
+      this->States[first] = isChosen ? State::Chosen : State::Seen;
+    }
+  }
+
+  bool flipIfImproved(HalfEdge side)
+  {
+    const HalfEdge twin = this->Mesh.twinOf(side);
+    const State state = std::exchange(this->States[side], State::Seen);
+    if (twin == noHalfEdge)
+    {
+      return false;
+    }
+    this->States[twin] = State::Seen;
+    if ((state == State::Suspect && !this->isImproved(side)) || !this->isFree(side))
+    {
+      return false;
+    }
+    this->Mesh.flip(side);
+    for (const HalfEdge first : { side / 3 * 3, twin / 3 * 3 })
+    {
+      this->States[first + 2] = State::Seen; // the new edge
+      for (const HalfEdge outer : { first, first + 1 })
+      {
+        this->States[outer] = State::Suspect;
+        if (this->Mesh.twinOf(outer) != noHalfEdge)
+        {
+          this->States[this->Mesh.twinOf(outer)] = State::Suspect;
+        }
+      }
+    }
+    return true;
+  }
 
   Vector edgeOf(std::size_t from, std::size_t to) const
   {
@@ -94,80 +125,53 @@ private:
     return cross(this->edgeOf(a, b), this->edgeOf(a, c));
   }
 
-  /// Pairs the sides of edges with exactly two triangles.
-  void findTwins()
+  /// Whether a flip makes the two triangles at a side more regular and keeps them upright.
+  bool isImproved(HalfEdge side) const
   {
-    const ItemLists byLowerEnd(this->Exec, this->Positions.size(), this->Twins.size(),
-      [this](Side side) { return std::array{ std::min(this->startOf(side), this->endOf(side)) }; });
-    forEachIndex(this->Exec, this->Positions.size(),
-      [&](std::size_t vertex)
-      {
-        const IndexSpan<Side> list = byLowerEnd.at(vertex);
-        std::vector<Side> sides(list.begin(), list.end());
-        const auto upperOf = [this](Side side)
-        { return std::max(this->startOf(side), this->endOf(side)); };
-        std::sort(sides.begin(), sides.end(),
-          [&](Side a, Side b)
-          { return upperOf(a) != upperOf(b) ? upperOf(a) < upperOf(b) : a < b; });
-        for (auto first = sides.begin(); first != sides.end();)
-        {
-          const auto last = std::find_if(
-            first, sides.end(), [&](Side side) { return upperOf(side) != upperOf(*first); });
-          if (last - first == 2 && this->startOf(first[0]) == this->endOf(first[1]))
-          {
-            this->Twins[first[0]] = first[1];
-            this->Twins[first[1]] = first[0];
-          }
-          first = last;
-        }
-      });
-  }
-
-  /// Sets the area-weighted normals of vertices, and their degrees.
-  void findNormals()
-  {
-    forEachInOrder(this->Exec, this->Triangles.size(),
-      [this](std::size_t triangle)
-      {
-        const auto& [a, b, c] = this->Triangles[triangle];
-        const Vector normal = this->normalOf(a, b, c);
-        for (const std::size_t vertex : { a, b, c })
-        {
-          this->Normals[vertex] += normal;
-          ++this->Degrees[vertex];
-        }
-      });
-    forEachIndex(this->Exec, this->Normals.size(),
-      [this](std::size_t vertex)
-      {
-        const double length = lengthOf(this->Normals[vertex]);
-        this->Normals[vertex] = length > 0.0 ? 1.0 / length * this->Normals[vertex] : Vector{};
-      });
-  }
-
-  bool isToFlip(Side side, Side twin) const
-  {
-    const std::size_t a = this->startOf(side);
-    const std::size_t b = this->endOf(side);
-    const std::size_t c = this->oppositeOf(side);
-    const std::size_t d = this->oppositeOf(twin);
+    const std::size_t a = this->Mesh.startOf(side);
+    const std::size_t b = this->Mesh.endOf(side);
+    const std::size_t c = this->Mesh.oppositeOf(side);
+    const std::size_t d = this->Mesh.oppositeOf(this->Mesh.twinOf(side));
     const bool isOfKept =
       this->AreKept[a] && this->AreKept[b] && (this->AreKept[c] || this->AreKept[d]);
     return c != d && !isOfKept && this->isObtuse(a, b, c, d) && !this->isCrease(a, b, c, d) &&
-           this->staysUpright(a, b, c, d) && !this->isEdge(side, twin);
+           this->staysUpright(a, b, c, d);
+  }
+
+  /// Whether the corners opposite to an edge are not connected, as far as is known: only the one
+  /// with fewer triangles is asked, and several fans may meet there.
+  bool isFree(HalfEdge side) const
+  {
+    const auto triangleCount = [this](std::size_t vertex)
+    {
+      std::size_t count = 0;
+      this->Mesh.outgoing().forEachAt(vertex, [&count](HalfEdge) { ++count; });
+      return count;
+    };
+    std::size_t c = this->Mesh.oppositeOf(side);
+    std::size_t d = this->Mesh.oppositeOf(this->Mesh.twinOf(side));
+    if (triangleCount(c) > triangleCount(d))
+    {
+      std::swap(c, d);
+    }
+    return !this->Mesh.hasEdge(c, d) && this->Mesh.fanAt(c) != SurfaceMesh::Fan::Branched;
   }
 
   /// Whether the angles at c and d, opposite the edge ab, add up to more than 180 degrees.
   bool isObtuse(std::size_t a, std::size_t b, std::size_t c, std::size_t d) const
   {
-    const auto angleAt = [&](std::size_t corner)
+    const auto sidesAt = [&](std::size_t corner)
+    { return std::pair(this->edgeOf(corner, a), this->edgeOf(corner, b)); };
+    const auto [cA, cB] = sidesAt(c);
+    const auto [dA, dB] = sidesAt(d);
+    const double cosC = dot(cA, cB);
+    const double cosD = dot(dA, dB);
+    if (cosC >= 0.0 && cosD >= 0.0)
     {
-      const Vector toA = this->edgeOf(corner, a);
-      const Vector toB = this->edgeOf(corner, b);
-      return std::array{ dot(toA, toB), lengthOf(cross(toA, toB)) }; // cosine, sine
-    };
-    const auto [cosC, sinC] = angleAt(c);
-    const auto [cosD, sinD] = angleAt(d);
+      return false; // the usual case: both angles are at most 90 degrees
+    }
+    const double sinC = lengthOf(cross(cA, cB));
+    const double sinD = lengthOf(cross(dA, dB));
     constexpr double minSine = 0.01; // a smaller excess is not worth a flip
     const double scale =
       std::sqrt(cosC * cosC + sinC * sinC) * std::sqrt(cosD * cosD + sinD * sinD);
@@ -207,97 +211,12 @@ private:
            (after > 0.0 && after >= this->minUprightness({ a, b, c }, { b, a, d }));
   }
 
-  /// Whether the opposite corners are, or may be, connected, which forbids a flip.
-  bool isEdge(Side side, Side twin) const
-  {
-    if (this->Degrees[this->oppositeOf(side)] > this->Degrees[this->oppositeOf(twin)])
-    {
-      std::swap(side, twin); // the corner with fewer triangles
-    }
-    const std::size_t other = this->oppositeOf(twin);
-    const Side start = lastOf(side); // from the opposite corner
-    const std::size_t corner = this->startOf(start);
-    std::size_t count = 0; // of triangles around that
-    bool isFound = false;
-    const auto look = [&](Side at)
-    {
-      ++count;
-      isFound = isFound || this->endOf(at) == other || this->oppositeOf(at) == other;
-    };
-    Side at = start;
-    do
-    {
-      look(at);
-      at = this->Twins[lastOf(at)];
-    } while (at != noSide && at != start && !isFound);
-    if (at == noSide)
-    {
-      // At a border, also in the other direction.
-      for (at = this->Twins[start]; at != noSide && !isFound; at = this->Twins[at])
-      {
-        at = nextOf(at);
-        look(at);
-      }
-    }
-    return isFound || count != this->Degrees[corner]; // several disks may meet there
-  }
-
-  /// Replaces the triangles (a, b, c) and (b, a, d) by (c, a, d) and (d, b, c).
-  void flipAt(Side side, Side twin)
-  {
-    const std::size_t a = this->startOf(side);
-    const std::size_t b = this->endOf(side);
-    const std::size_t c = this->oppositeOf(side);
-    const std::size_t d = this->oppositeOf(twin);
-    const Side bc = this->Twins[nextOf(side)];
-    const Side ca = this->Twins[lastOf(side)];
-    const Side ad = this->Twins[nextOf(twin)];
-    const Side db = this->Twins[lastOf(twin)];
-    const Side first = side / 3 * 3;
-    const Side second = twin / 3 * 3;
-    this->Triangles[first / 3] = { c, a, d };
-    this->Triangles[second / 3] = { d, b, c };
-    --this->Degrees[a];
-    --this->Degrees[b];
-    ++this->Degrees[c];
-    ++this->Degrees[d];
-    this->join(first, ca);
-    this->join(first + 1, ad);
-    this->join(second, db);
-    this->join(second + 1, bc);
-    this->join(first + 2, second + 2);
-  }
-
-  void join(Side side, Side twin)
-  {
-    this->Twins[side] = twin;
-    if (twin != noSide)
-    {
-      this->Twins[twin] = side;
-    }
-  }
-
-  /// Marks the sides of a triangle for another check, except the new edge.
-  void suspectAround(Side side, std::vector<char>& isSuspect) const
-  {
-    const Side first = side / 3 * 3;
-    for (Side each = first; each < first + 2; ++each)
-    {
-      isSuspect[each] = 1;
-      if (this->Twins[each] != noSide)
-      {
-        isSuspect[this->Twins[each]] = 1;
-      }
-    }
-  }
-
   const Execution& Exec;
   const std::vector<Vector>& Positions;
   const std::vector<char>& AreKept; // each vertex
-  std::vector<SurfaceTriangle>& Triangles;
-  std::vector<Side> Twins; // of sides
-  std::vector<Vector> Normals;
-  std::vector<std::size_t> Degrees; // of vertices
+  SurfaceMesh Mesh;
+  std::vector<Vector> Normals; // of vertices, before any flip
+  std::vector<State> States;   // of sides
 };
 
 } // namespace
@@ -305,8 +224,8 @@ private:
 void flipEdges(const Execution& execution, const std::vector<Vector>& positions,
   const std::vector<char>& areKept, std::vector<SurfaceTriangle>& triangles)
 {
-  EdgeFlipper(execution, positions, areKept, triangles).flip();
-  triangles = ordered(execution, std::move(triangles), positions.size());
+  triangles = ordered(execution,
+    EdgeFlipper(execution, positions, areKept, std::move(triangles)).flip(), positions.size());
 }
 
 } // namespace isopoint

@@ -6,65 +6,33 @@
 
 #include <algorithm>
 #include <iterator>
-#include <utility>
 
 namespace isopoint
 {
+namespace
+{
+
+template <class T, class Part>
+std::vector<T> partsOf(
+  const Execution& execution, const std::vector<Facet>& facets, const Part& part)
+{
+  std::vector<T> parts(facets.size());
+  forEachIndex(execution, facets.size(), [&](std::size_t i) { parts[i] = part(facets[i]); });
+  return parts;
+}
+
+} // namespace
 
 FacetMesh::FacetMesh(const Execution& execution, const std::vector<Vector>& positions,
-  const std::vector<bool>& isInner, std::vector<Facet> facets)
+  const std::vector<bool>& isInner, const std::vector<Facet>& facets)
   : Exec(execution)
   , Positions(positions)
   , IsInner(isInner)
-  , Facets(std::move(facets))
-  , IsRemoved(this->Facets.size(), false)
+  , Mesh(execution,
+      partsOf<SurfaceTriangle>(execution, facets, [](const Facet& facet) { return facet.corners; }),
+      positions.size())
+  , Normals(partsOf<Vector>(execution, facets, [](const Facet& facet) { return facet.normal; }))
 {
-  forEachInOrder(this->Exec, this->Facets.size(), [this](std::size_t i) { this->connect(i); });
-}
-
-void FacetMesh::replace(SurfaceTriangle& corners, std::size_t vertex, std::size_t by)
-{
-  std::replace(corners.begin(), corners.end(), vertex, by);
-}
-
-void FacetMesh::connect(std::size_t facet)
-{
-  const SurfaceTriangle& corners = this->Facets[facet].corners;
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    const auto [found, isNew] =
-      this->Edges.insert({ { corners[i], corners[(i + 1) % 3] }, { facet, true } });
-    found->second.isOne = isNew;
-    this->FacetsAround[corners[i]].push_back(facet);
-  }
-}
-
-void FacetMesh::disconnect(std::size_t facet)
-{
-  const SurfaceTriangle& corners = this->Facets[facet].corners;
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    // Nonmanifold edges are neither flipped nor collapsed.
-    const auto found = this->Edges.find({ corners[i], corners[(i + 1) % 3] });
-    if (found->second.isOne)
-    {
-      this->Edges.erase(found);
-    }
-    std::vector<std::size_t>& around = this->FacetsAround[corners[i]];
-    around.erase(std::find(around.begin(), around.end(), facet));
-  }
-}
-
-std::optional<std::size_t> FacetMesh::facetAt(std::size_t a, std::size_t b) const
-{
-  const auto found = this->Edges.find({ a, b });
-  return found != this->Edges.end() && found->second.isOne ? std::optional(found->second.facet)
-                                                           : std::nullopt;
-}
-
-bool FacetMesh::hasEdge(std::size_t a, std::size_t b) const
-{
-  return this->Edges.count({ a, b }) > 0 || this->Edges.count({ b, a }) > 0;
 }
 
 Vector FacetMesh::areaNormal(const SurfaceTriangle& triangle) const
@@ -78,15 +46,17 @@ double FacetMesh::signedArea(const Facet& facet) const
   return dot(facet.normal, this->areaNormal(facet.corners));
 }
 
-double FacetMesh::invertedArea(const Facet& a, const Facet& b) const
+double FacetMesh::invertedArea(
+  const SurfaceTriangle& a, const SurfaceTriangle& b, const Vector& normal) const
 {
-  return std::max(0.0, -this->signedArea(a)) + std::max(0.0, -this->signedArea(b));
+  return std::max(0.0, -this->signedArea({ a, normal })) +
+         std::max(0.0, -this->signedArea({ b, normal }));
 }
 
 std::vector<std::size_t> FacetMesh::invertedFacets() const
 {
   return itemsThat(
-    this->Exec, this->Facets.size(), [this](std::size_t i) { return this->isInverted(i); });
+    this->Exec, this->Normals.size(), [this](std::size_t i) { return this->isInverted(i); });
 }
 
 void FacetMesh::untangle()
@@ -101,7 +71,7 @@ void FacetMesh::untangle()
       [&](std::size_t i)
       {
         const std::size_t facet = inverted[i];
-        if (this->signedArea(this->Facets[facet]) < 0.0)
+        if (this->isInverted(facet))
         {
           changed.push_back(facet);
           if (const std::optional<std::size_t> other = this->flipBest(facet))
@@ -111,157 +81,85 @@ void FacetMesh::untangle()
           }
         }
       });
-    inverted = isAnyFlipped ? sortedUnique(this->Exec, changed, this->Facets.size())
+    inverted = isAnyFlipped ? sortedUnique(this->Exec, changed, this->Normals.size())
                             : std::vector<std::size_t>();
   }
 }
 
 std::optional<std::size_t> FacetMesh::flipBest(std::size_t facet)
 {
-  const Facet own = this->Facets[facet];
   double most = 0.0;
-  std::optional<std::size_t> chosen;
-  Facet first{};
-  Facet second{};
-  for (std::size_t i = 0; i < 3; ++i)
+  HalfEdge chosen = noHalfEdge;
+  Vector chosenNormal{};
+  for (HalfEdge side = 3 * facet; side < 3 * facet + 3; ++side)
   {
-    const std::size_t a = own.corners[i];
-    const std::size_t b = own.corners[(i + 1) % 3];
-    const std::size_t c = own.corners[(i + 2) % 3];
-    const std::optional<std::size_t> other = this->facetAt(b, a);
-    if (!other || !this->facetAt(a, b) || !this->IsInner[a] || !this->IsInner[b] ||
-        !this->IsInner[c] || dot(own.normal, this->Facets[*other].normal) < maxCreaseCosine)
+    const HalfEdge twin = this->Mesh.twinOf(side);
+    const std::size_t a = this->Mesh.startOf(side);
+    const std::size_t b = this->Mesh.endOf(side);
+    const std::size_t c = this->Mesh.oppositeOf(side);
+    if (twin == noHalfEdge || !this->IsInner[a] || !this->IsInner[b] || !this->IsInner[c] ||
+        dot(this->Normals[facet], this->Normals[twin / 3]) < maxCreaseCosine)
     {
       continue;
     }
-    const SurfaceTriangle& corners = this->Facets[*other].corners;
-    const std::size_t d = *std::find_if(corners.begin(), corners.end(),
-      [a, b](std::size_t corner) { return corner != a && corner != b; });
-    if (d == c || !this->IsInner[d] || this->hasEdge(c, d)) // d == c: back to back
+    const std::size_t d = this->Mesh.oppositeOf(twin);
+    if (d == c || !this->IsInner[d] || this->Mesh.hasEdge(c, d)) // d == c: back to back
     {
       continue;
     }
-    const Vector normal = directionOf(own.normal + this->Facets[*other].normal);
-    const Facet former[2] = { { own.corners, normal }, { corners, normal } };
-    const Facet flipped[2] = { { { a, d, c }, normal }, { { d, b, c }, normal } };
-    const double gain =
-      this->invertedArea(former[0], former[1]) - this->invertedArea(flipped[0], flipped[1]);
+    const Vector normal = directionOf(this->Normals[facet] + this->Normals[twin / 3]);
+    const std::vector<SurfaceTriangle>& former = this->Mesh.triangles();
+    const double gain = this->invertedArea(former[facet], former[twin / 3], normal) -
+                        this->invertedArea({ a, d, c }, { d, b, c }, normal);
     if (gain > most)
     {
       most = gain;
-      chosen = other;
-      first = flipped[0];
-      second = flipped[1];
+      chosen = side;
+      chosenNormal = normal;
     }
   }
-  if (chosen)
-  {
-    this->disconnect(facet);
-    this->disconnect(*chosen);
-    this->Facets[facet] = first;
-    this->Facets[*chosen] = second;
-    this->connect(facet);
-    this->connect(*chosen);
-  }
-  return chosen;
-}
-
-std::vector<std::size_t> FacetMesh::neighborsOf(std::size_t vertex) const
-{
-  std::vector<std::size_t> neighbors;
-  const auto around = this->FacetsAround.find(vertex);
-  if (around == this->FacetsAround.end())
-  {
-    return neighbors;
-  }
-  for (const std::size_t facet : around->second)
-  {
-    for (const std::size_t corner : this->Facets[facet].corners)
-    {
-      if (corner != vertex)
-      {
-        neighbors.push_back(corner);
-      }
-    }
-  }
-  keepUnique(neighbors);
-  return neighbors;
-}
-
-/// The facets that remain when the edge from a vertex to a neighbor collapses; nothing if the mesh
-/// would not stay manifold.
-std::optional<std::vector<std::size_t>> FacetMesh::facetsToMove(
-  std::size_t vertex, std::size_t neighbor) const
-{
-  if (!this->IsInner[vertex] || !this->IsInner[neighbor] || !this->facetAt(vertex, neighbor) ||
-      !this->facetAt(neighbor, vertex))
+  if (chosen == noHalfEdge)
   {
     return std::nullopt;
   }
-  const std::vector<std::size_t> own = this->neighborsOf(vertex);
-  const std::vector<std::size_t> others = this->neighborsOf(neighbor);
+  const std::size_t other = this->Mesh.twinOf(chosen) / 3;
+  this->Mesh.flip(chosen);
+  this->Mesh.turn(facet);
+  this->Normals[facet] = this->Normals[other] = chosenNormal;
+  return other;
+}
+
+HalfEdge FacetMesh::sideToCollapse(std::size_t vertex, std::size_t neighbor) const
+{
+  const HalfEdge side = this->Mesh.halfEdgeBetween(vertex, neighbor);
+  if (!this->IsInner[vertex] || !this->IsInner[neighbor] || side == noHalfEdge ||
+      this->Mesh.twinOf(side) == noHalfEdge)
+  {
+    return noHalfEdge;
+  }
+  const std::vector<std::size_t> own = this->Mesh.neighborsOf(vertex);
+  const std::vector<std::size_t> others = this->Mesh.neighborsOf(neighbor);
   std::vector<std::size_t> common;
   std::set_intersection(
     own.begin(), own.end(), others.begin(), others.end(), std::back_inserter(common));
-  const bool isClosed = std::all_of(own.begin(), own.end(),
-    [&](std::size_t each) { return this->facetAt(vertex, each) && this->facetAt(each, vertex); });
-  if (common.size() != 2 || own.size() < 4 || !isClosed)
-  {
-    return std::nullopt;
-  }
-  std::vector<std::size_t> kept;
-  for (const std::size_t facet : this->FacetsAround.at(vertex))
-  {
-    const SurfaceTriangle& corners = this->Facets[facet].corners;
-    if (std::find(corners.begin(), corners.end(), neighbor) == corners.end())
-    {
-      kept.push_back(facet);
-    }
-  }
-  return kept;
-}
-
-void FacetMesh::move(std::size_t vertex, std::size_t neighbor, const std::vector<std::size_t>& kept)
-{
-  const std::vector<std::size_t> around = this->FacetsAround.at(vertex);
-  for (const std::size_t facet : around)
-  {
-    this->disconnect(facet);
-    this->IsRemoved[facet] = std::find(kept.begin(), kept.end(), facet) == kept.end();
-  }
-  for (const std::size_t facet : kept)
-  {
-    replace(this->Facets[facet].corners, vertex, neighbor);
-    this->connect(facet);
-  }
+  return common.size() == 2 && own.size() >= 4 && !this->Mesh.isOpen(vertex) ? side : noHalfEdge;
 }
 
 double FacetMesh::invertedAreaAround(std::size_t vertex) const
 {
   double area = 0.0;
-  const auto around = this->FacetsAround.find(vertex);
-  if (around != this->FacetsAround.end())
-  {
-    for (const std::size_t facet : around->second)
-    {
-      area += std::max(0.0, -this->signedArea(this->Facets[facet]));
-    }
-  }
+  this->Mesh.outgoing().forEachAt(vertex,
+    [&](HalfEdge side) { area += std::max(0.0, -this->signedArea(this->facet(side / 3))); });
   return area;
 }
 
 std::vector<Facet> FacetMesh::facets() const
 {
-  std::vector<Facet> left;
-  forEachInOrder(this->Exec, this->Facets.size(),
-    [&](std::size_t i)
-    {
-      if (!this->IsRemoved[i])
-      {
-        left.push_back(this->Facets[i]);
-      }
-    });
-  return left;
+  const std::vector<std::size_t> left = itemsThat(
+    this->Exec, this->Normals.size(), [this](std::size_t i) { return !this->Mesh.isRemoved(i); });
+  std::vector<Facet> facets(left.size());
+  forEachIndex(this->Exec, left.size(), [&](std::size_t i) { facets[i] = this->facet(left[i]); });
+  return facets;
 }
 
 } // namespace isopoint

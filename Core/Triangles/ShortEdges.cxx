@@ -10,42 +10,51 @@
 namespace isopoint
 {
 
-std::vector<VertexPair> shortEdges(const Execution& execution, const std::vector<Vector>& positions,
-  const std::vector<SurfaceTriangle>& triangles)
+std::vector<VertexPair> shortEdges(
+  const Execution& execution, const std::vector<Vector>& positions, const SurfaceMesh& mesh)
 {
   constexpr double shortEdge = 0.55;
   constexpr double equilateral = 1.5196713713031851; // side over the root of the area
   const auto edgeOf = [&](std::size_t a, std::size_t b) { return positions[b] - positions[a]; };
-  std::vector<double> areas(positions.size(), 0.0); // of the triangles around
-  std::vector<double> counts(positions.size(), 0.0);
-  forEachInOrder(execution, triangles.size(),
+  std::vector<double> areas(mesh.triangles().size());
+  forEachIndex(execution, areas.size(),
     [&](std::size_t triangle)
     {
-      const auto& [a, b, c] = triangles[triangle];
-      const double area = 0.5 * lengthOf(cross(edgeOf(a, b), edgeOf(a, c)));
-      for (const std::size_t vertex : { a, b, c })
-      {
-        areas[vertex] += area;
-        counts[vertex] += 1.0;
-      }
+      const auto& [a, b, c] = mesh.triangles()[triangle];
+      areas[triangle] = 0.5 * lengthOf(cross(edgeOf(a, b), edgeOf(a, c)));
+    });
+  struct Around // of the triangles at a vertex
+  {
+    double area;
+    double count;
+  };
+  std::vector<Around> around(positions.size(), { 0.0, 0.0 });
+  forEachIndex(execution, around.size(),
+    [&](std::size_t vertex)
+    {
+      mesh.outgoing().forEachAt(vertex,
+        [&](HalfEdge side)
+        {
+          around[vertex].area += areas[side / 3];
+          around[vertex].count += 1.0;
+        });
     });
   using Measured = std::pair<double, VertexPair>; // the length in sides, and the edge
   constexpr std::size_t grain = 4096;
   std::vector<Measured> byLength = collected<Measured>(execution,
-    { triangles.size(), 4 * grain, grain },
+    { 3 * areas.size(), 4 * grain, grain },
     [&](std::size_t begin, std::size_t end, std::vector<Measured>& found)
     {
-      for (std::size_t triangle = begin; triangle < end; ++triangle)
+      for (HalfEdge side = begin; side < end; ++side)
       {
-        for (std::size_t i = 0; i < 3; ++i)
+        const auto [a, b] = std::minmax({ mesh.startOf(side), mesh.endOf(side) });
+        const double area = (around[a].area + around[b].area) / (around[a].count + around[b].count);
+        const double share = mesh.twinOf(side) == noHalfEdge || side < mesh.twinOf(side)
+                               ? lengthOf(edgeOf(a, b)) / (equilateral * std::sqrt(area))
+                               : shortEdge;
+        if (share < shortEdge)
         {
-          const auto [a, b] = std::minmax(triangles[triangle][i], triangles[triangle][(i + 1) % 3]);
-          const double area = (areas[a] + areas[b]) / (counts[a] + counts[b]);
-          const double share = lengthOf(edgeOf(a, b)) / (equilateral * std::sqrt(area));
-          if (share < shortEdge)
-          {
-            found.push_back({ share, { a, b } });
-          }
+          found.push_back({ share, { a, b } });
         }
       }
     });

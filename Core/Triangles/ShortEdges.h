@@ -3,7 +3,7 @@
 
 #include "Core/Base/Execution.h"
 #include "Core/Base/Vector.h"
-#include "Core/Triangles/TriangleGeometry.h"
+#include "Core/Triangles/SurfaceMesh.h"
 
 #include <cstddef>
 #include <utility>
@@ -22,7 +22,7 @@ using VertexPair = std::pair<std::size_t, std::size_t>;
 /// Its area is the mean of the areas of the triangles at both ends. O(n log n)
 /// @returns each edge once
 /// @throws std::bad_alloc, Aborted
-std::vector<VertexPair> shortEdges(const Execution& execution, const std::vector<Vector>& positions,
-  const std::vector<SurfaceTriangle>& triangles);
+std::vector<VertexPair> shortEdges(
+  const Execution& execution, const std::vector<Vector>& positions, const SurfaceMesh& mesh);
 
 } // namespace isopoint

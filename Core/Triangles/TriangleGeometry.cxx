@@ -2,15 +2,15 @@
 #include "Core/Triangles/TriangleGeometry.h"
 
 #include "Core/Base/Lists.h"
+#include "Core/Triangles/SurfaceMesh.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
 #include <numeric>
-#include <optional>
-#include <utility>
 
 namespace isopoint
 {
@@ -38,27 +38,31 @@ Vector scaledNormal(const Vector& a, const Vector& b, const Vector& c)
 
 /// Reverts moves longer than twice the longest edge of the vertex's triangles.
 void takeBackFarMoves(const Execution& execution, const std::vector<Vector>& unmoved,
-  const std::vector<SurfaceTriangle>& triangles, std::vector<LocalFit>& fits)
+  const std::vector<SurfaceTriangle>& triangles, const OutgoingHalfEdges& outgoing,
+  std::vector<LocalFit>& fits)
 {
   constexpr double maxReach = 2.0; // in longest edges
-  std::vector<double> longest(fits.size(), 0.0);
-  forEachInOrder(execution, triangles.size(),
+  std::vector<double> longest(triangles.size());
+  forEachIndex(execution, triangles.size(),
     [&](std::size_t i)
     {
       const auto& [a, b, c] = triangles[i];
-      const double length = std::max({ 0.0, lengthOf(unmoved[b] - unmoved[a]),
+      longest[i] = std::max({ 0.0, lengthOf(unmoved[b] - unmoved[a]),
         lengthOf(unmoved[c] - unmoved[b]), lengthOf(unmoved[a] - unmoved[c]) });
-      for (const std::size_t vertex : { a, b, c })
-      {
-        longest[vertex] = std::max(longest[vertex], length);
-      }
     });
   forEachIndex(execution, fits.size(),
     [&](std::size_t vertex)
     {
       LocalFit& fit = fits[vertex];
-      if (fit.order && fit.order != FitOrder::Crease &&
-          lengthOf(fit.position - unmoved[vertex]) > maxReach * longest[vertex])
+      if (!fit.order || fit.order == FitOrder::Crease)
+      {
+        return;
+      }
+      const double move = lengthOf(fit.position - unmoved[vertex]);
+      double reach = 0.0;
+      outgoing.forEachAt(
+        vertex, [&](HalfEdge side) { reach = std::max(reach, maxReach * longest[side / 3]); });
+      if (move > reach)
       {
         fit.order.reset();
         fit.position = unmoved[vertex];
@@ -71,16 +75,16 @@ void takeBackFarMoves(const Execution& execution, const std::vector<Vector>& unm
 std::vector<std::size_t> verticesOf(const Execution& execution,
   const std::vector<SurfaceTriangle>& triangles, std::size_t vertexCount)
 {
-  std::vector<bool> isUsed(vertexCount, false);
-  forEachInOrder(execution, triangles.size(),
+  std::vector<std::atomic<bool>> areUsed(vertexCount);
+  forEachIndex(execution, triangles.size(),
     [&](std::size_t i)
     {
       for (const std::size_t vertex : triangles[i])
       {
-        isUsed[vertex] = true;
+        areUsed[vertex].store(true, std::memory_order_relaxed);
       }
     });
-  return markedOf(execution, isUsed);
+  return markedOf(execution, areUsed);
 }
 
 std::vector<SurfaceTriangle> ordered(
@@ -115,7 +119,8 @@ std::vector<SurfaceTriangle> renumbered(const Execution& execution,
 void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>& unmoved,
   const std::vector<SurfaceTriangle>& triangles, std::vector<LocalFit>& fits)
 {
-  takeBackFarMoves(execution, unmoved, triangles, fits);
+  const OutgoingHalfEdges outgoing(execution, triangles, fits.size());
+  takeBackFarMoves(execution, unmoved, triangles, outgoing, fits);
   const auto isMoved = [&fits](std::size_t vertex) { return fits[vertex].order.has_value(); };
   const auto fallingAt = [&fits](std::size_t vertex)
   { return -directionOf(fits[vertex].gradient); };
@@ -138,7 +143,6 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
   // All triangles at first, then the changed ones.
   std::vector<std::size_t> suspects(triangles.size());
   std::iota(suspects.begin(), suspects.end(), std::size_t{ 0 });
-  std::optional<ItemLists> trianglesAt; // by vertex; built when a triangle is turned over
   while (!suspects.empty())
   {
     constexpr std::size_t grain = 8192;
@@ -151,12 +155,6 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
           [&](std::size_t triangle) { return isTurned(triangles[triangle]); });
       },
       execution.progress);
-    if (!trianglesAt && !turned.empty())
-    {
-      trianglesAt.emplace(execution, fits.size(), triangles.size(),
-        [&triangles](std::size_t triangle) -> const SurfaceTriangle&
-        { return triangles[triangle]; });
-    }
     suspects.clear();
     forEachInOrder(execution, turned.size(),
       [&](std::size_t i)
@@ -165,8 +163,7 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
         {
           if (isMoved(vertex))
           {
-            const IndexSpan<std::size_t> around = trianglesAt->at(vertex);
-            suspects.insert(suspects.end(), around.begin(), around.end());
+            outgoing.forEachAt(vertex, [&](HalfEdge side) { suspects.push_back(side / 3); });
           }
           fits[vertex].order.reset();
           fits[vertex].position = unmoved[vertex];

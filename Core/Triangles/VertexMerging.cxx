@@ -2,12 +2,15 @@
 #include "Core/Triangles/VertexMerging.h"
 
 #include "Core/Base/Lists.h"
+#include "Core/Extraction/Isosurface.h"
 #include "Core/Triangles/EdgeFlipping.h"
 #include "Core/Triangles/ShortEdges.h"
-#include "Core/Triangles/VertexContraction.h"
-#include "Core/Triangles/VertexLink.h"
+#include "Core/Triangles/SurfaceMesh.h"
+#include "Core/Triangles/VertexParts.h"
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -16,6 +19,131 @@ namespace isopoint
 namespace
 {
 
+/// Where merged parts are placed.
+class PartPlaces
+{
+public:
+  /// @param positions of the vertices
+  /// @param memberBegins by vertex, offsets of the crossings that it is the mean of
+  PartPlaces(const SurfaceMesh& mesh, const VertexParts& parts,
+    const std::vector<Vector>& positions, const std::vector<std::size_t>& memberBegins)
+    : Mesh(mesh)
+    , Parts(parts)
+    , Positions(positions)
+    , MemberBegins(memberBegins)
+  {
+  }
+
+  /// The vertices that determine the place of a part, ascending: its border corner, else its border
+  /// vertices, else all.
+  /// @param memory overwritten; may hold them
+  IndexSpan<std::size_t> membersOf(std::size_t part, std::vector<std::size_t>& memory) const
+  {
+    const IndexSpan<std::size_t> vertices = this->Parts.verticesOf(part);
+    memory.clear();
+    std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(memory),
+      [this](std::size_t vertex) { return this->Mesh.isOpen(vertex); });
+    if (memory.empty())
+    {
+      return vertices;
+    }
+    const std::size_t corner = this->cornerOf(part, memory);
+    if (corner != VertexParts::none)
+    {
+      memory.assign(1, corner);
+    }
+    return { memory.data(), memory.size() };
+  }
+
+  /// The weighted mean of vertices, clamped to their bounds.
+  Vector meanOf(const IndexSpan<std::size_t>& vertices) const
+  {
+    const auto positionOf = [this](std::size_t vertex) -> const Vector&
+    { return this->Positions[vertex]; };
+    double weight = 0.0;
+    for (const std::size_t vertex : vertices)
+    {
+      weight += this->weightOf(vertex);
+    }
+    const Vector& origin = positionOf(vertices[0]);
+    Vector mean = origin;
+    Vector least = origin;
+    Vector most = origin;
+    for (const std::size_t vertex : vertices)
+    {
+      const Vector& position = positionOf(vertex);
+      mean = mean + this->weightOf(vertex) / weight * (position - origin);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        least[axis] = std::min(least[axis], position[axis]);
+        most[axis] = std::max(most[axis], position[axis]);
+      }
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      mean[axis] = std::clamp(mean[axis], least[axis], most[axis]);
+    }
+    return mean;
+  }
+
+private:
+  /// The vertex of a part at a corner of the border, far from the line between the two border
+  /// vertices next to the part. `none` if there is no corner.
+  std::size_t cornerOf(std::size_t part, const std::vector<std::size_t>& atBorder) const
+  {
+    constexpr double cornerShare = 0.25; // share of the length of that line
+    using Edge = std::array<std::size_t, 2>;
+    std::vector<std::pair<Edge, std::size_t>> leaving; // border edges, with their ends outside
+    for (const std::size_t vertex : atBorder)
+    {
+      this->Mesh.outgoing().forEachAt(vertex,
+        [&](HalfEdge side)
+        {
+          const std::size_t next = this->Mesh.endOf(side);
+          const std::size_t last = this->Mesh.oppositeOf(side);
+          if (this->Mesh.twinOf(side) == noHalfEdge && !this->Parts.isInside(next, part))
+          {
+            leaving.push_back({ { vertex, next }, next });
+          }
+          if (this->Mesh.twinOf(lastOf(side)) == noHalfEdge && !this->Parts.isInside(last, part))
+          {
+            leaving.push_back({ { last, vertex }, last });
+          }
+        });
+    }
+    std::sort(leaving.begin(), leaving.end());
+    if (leaving.size() != 2)
+    {
+      return VertexParts::none;
+    }
+    const Vector& start = this->Positions[leaving[0].second];
+    const Vector along = this->Positions[leaving[1].second] - start;
+    const Vector direction = directionOf(along);
+    std::size_t farthest = VertexParts::none;
+    double most = cornerShare * lengthOf(along);
+    for (const std::size_t vertex : atBorder)
+    {
+      const double offset = lengthOf(cross(this->Positions[vertex] - start, direction));
+      if (offset > most)
+      {
+        most = offset;
+        farthest = vertex;
+      }
+    }
+    return farthest;
+  }
+
+  double weightOf(std::size_t vertex) const
+  {
+    return static_cast<double>(this->MemberBegins[vertex + 1] - this->MemberBegins[vertex]);
+  }
+
+  const SurfaceMesh& Mesh;
+  const VertexParts& Parts;
+  const std::vector<Vector>& Positions;
+  const std::vector<std::size_t>& MemberBegins;
+};
+
 class VertexMerger
 {
 public:
@@ -23,14 +151,9 @@ public:
     std::vector<SurfaceTriangle> triangles, std::vector<char> areKept)
     : Exec(execution)
     , Crossings(crossings)
-    , Vertices{ crossings, std::vector<double>(crossings.size(), 1.0) }
     , AreKept(std::move(areKept))
   {
     this->AreKept.resize(crossings.size(), 0);
-    for (const std::size_t vertex : branchedVertices(execution, triangles, crossings.size()))
-    {
-      this->AreKept[vertex] = 1;
-    }
     this->Result.triangles = std::move(triangles);
     this->Result.members.resize(crossings.size());
     std::iota(this->Result.members.begin(), this->Result.members.end(), std::size_t{ 0 });
@@ -40,14 +163,14 @@ public:
 
   MergedTriangles merge(std::vector<std::size_t> nearerEnds, std::size_t endCount)
   {
-    this->contract(std::move(nearerEnds), endCount);
+    this->mergeAtEnds(std::move(nearerEnds), endCount);
     this->Exec.progress(0.7);
     for (int round = 0; round < shortEdgeRounds; ++round)
     {
-      flipEdges(this->Exec, this->Vertices.positions, this->AreKept, this->Result.triangles);
-      this->contract(this->pairsOfShortEdges(), this->count());
+      flipEdges(this->Exec, this->Result.positions, this->AreKept, this->Result.triangles);
+      const SurfaceMesh mesh = this->takeMesh();
+      this->contract(mesh, this->pairsOfShortEdges(mesh), this->Result.positions);
     }
-    this->Result.positions = std::move(this->Vertices.positions);
     forEachIndex(this->Exec, this->Result.size(),
       [this](std::size_t vertex) { this->putNearestFirst(vertex); });
     this->Exec.progress(1.0);
@@ -55,87 +178,138 @@ public:
   }
 
 private:
-  std::size_t count() const { return this->Vertices.weights.size(); }
+  std::size_t count() const { return this->Result.memberBegins.size() - 1; }
 
-  /// Merges the vertices of each group if possible, and renumbers.
-  void contract(std::vector<std::size_t> groups, std::size_t groupCount)
+  SurfaceMesh takeMesh()
   {
-    forEachInOrder(this->Exec, this->count(),
-      [&](std::size_t vertex)
-      {
-        if (this->AreKept[vertex])
-        {
-          groups[vertex] = groupCount++; // alone
-        }
-      });
-    VertexContraction contraction(
-      this->Exec, this->Vertices, this->Result.triangles, groups, groupCount);
-    contraction.contract();
-    const std::vector<std::size_t> roots = itemsThat(this->Exec, this->count(),
-      [&](std::size_t vertex) { return contraction.rootOf(vertex) == vertex; });
-    std::vector<char> areKept(roots.size());
-    forEachIndex(
-      this->Exec, roots.size(), [&](std::size_t i) { areKept[i] = this->AreKept[roots[i]]; });
-    this->AreKept = std::move(areKept);
-    std::vector<SurfaceTriangle> triangles = this->trianglesOf(contraction, roots);
-    this->keepVertices(contraction, roots);
-    this->Result.triangles = std::move(triangles);
+    return { this->Exec, std::move(this->Result.triangles), this->count() };
   }
 
-  std::vector<SurfaceTriangle> trianglesOf(
-    const VertexContraction& contraction, const std::vector<std::size_t>& roots) const
+  /// Keeps branched vertices from now on, and merges the others at each sample.
+  void mergeAtEnds(std::vector<std::size_t> nearerEnds, std::size_t endCount)
+  {
+    const SurfaceMesh mesh = this->takeMesh();
+    forEachIndex(this->Exec, this->count(),
+      [&](std::size_t vertex)
+      {
+        const SurfaceMesh::Fan fan = mesh.fanAt(vertex);
+        if (fan == SurfaceMesh::Fan::Branched || fan == SurfaceMesh::Fan::BackToBack)
+        {
+          this->AreKept[vertex] = 1;
+        }
+      });
+    const std::vector<std::size_t> kept = markedOf(this->Exec, this->AreKept);
+    forEachIndex(
+      this->Exec, kept.size(), [&](std::size_t i) { nearerEnds[kept[i]] = endCount + i; }); // alone
+    this->contract(
+      mesh, partsOfGroups(this->Exec, mesh, nearerEnds, endCount + kept.size()), this->Crossings);
+  }
+
+  /// Merges the vertices of each part if possible, and renumbers.
+  /// @param former positions
+  void contract(
+    const SurfaceMesh& mesh, const VertexParts& parts, const std::vector<Vector>& former)
+  {
+    const std::vector<char> areMerged = contractibleParts(this->Exec, mesh, parts);
+    const auto isMerged = [&](std::size_t vertex)
+    { return parts.partOf[vertex] != VertexParts::none && areMerged[parts.partOf[vertex]]; };
+    // The lowest vertex of each merged part, and all others.
+    const std::vector<std::size_t> roots = itemsThat(this->Exec, this->count(),
+      [&](std::size_t vertex)
+      { return !isMerged(vertex) || parts.verticesOf(parts.partOf[vertex])[0] == vertex; });
+    const PartPlaces places(mesh, parts, former, this->Result.memberBegins);
+    // The vertices that become one, and those of them that determine its place.
+    const auto mergedAt = [&](std::size_t i) -> IndexSpan<std::size_t>
+    {
+      return isMerged(roots[i]) ? parts.verticesOf(parts.partOf[roots[i]])
+                                : IndexSpan<std::size_t>{ &roots[i], 1 };
+    };
+    const auto placingAt = [&](std::size_t i, std::vector<std::size_t>& memory)
+    { return isMerged(roots[i]) ? places.membersOf(parts.partOf[roots[i]], memory) : mergedAt(i); };
+    std::vector<std::size_t> number(this->count());
+    forEachIndex(this->Exec, roots.size(),
+      [&](std::size_t i)
+      {
+        for (const std::size_t vertex : mergedAt(i))
+        {
+          number[vertex] = i;
+        }
+      });
+    this->Result.triangles = this->renumberedTriangles(mesh.triangles(), number, roots.size());
+    this->AreKept = chosenOf(this->Exec, this->AreKept, roots);
+    std::vector<Vector> positions(roots.size());
+    forEachIndex(this->Exec, roots.size(),
+      [&](std::size_t i)
+      {
+        std::vector<std::size_t> memory;
+        positions[i] = isMerged(roots[i]) ? places.meanOf(placingAt(i, memory)) : former[roots[i]];
+      });
+    this->keepMembers(roots.size(), placingAt);
+    this->Result.positions = std::move(positions);
+  }
+
+  /// The triangles whose corners stay different.
+  std::vector<SurfaceTriangle> renumberedTriangles(const std::vector<SurfaceTriangle>& triangles,
+    const std::vector<std::size_t>& number, std::size_t count) const
   {
     constexpr std::size_t grain = 4096;
-    return renumbered(this->Exec,
-      collected<SurfaceTriangle>(this->Exec, { this->Result.triangles.size(), 4 * grain, grain },
+    return ordered(this->Exec,
+      collected<SurfaceTriangle>(this->Exec, { triangles.size(), 4 * grain, grain },
         [&](std::size_t begin, std::size_t end, std::vector<SurfaceTriangle>& found)
         {
+          found.reserve(end - begin);
           for (std::size_t i = begin; i < end; ++i)
           {
-            const auto& [a, b, c] = this->Result.triangles[i];
-            const SurfaceTriangle moved{ contraction.rootOf(a), contraction.rootOf(b),
-              contraction.rootOf(c) };
+            const auto& [a, b, c] = triangles[i];
+            const SurfaceTriangle moved{ number[a], number[b], number[c] };
             if (moved[0] != moved[1] && moved[1] != moved[2] && moved[2] != moved[0])
             {
               found.push_back(moved);
             }
           }
         }),
-      roots, this->count());
+      count);
   }
 
-  void keepVertices(const VertexContraction& contraction, const std::vector<std::size_t>& roots)
+  /// @param placingAt(i, memory) the former vertices that determine the place of a new one
+  template <class PlacingAt>
+  void keepMembers(std::size_t count, const PlacingAt& placingAt)
   {
-    WeightedVertices vertices;
-    std::vector<std::size_t> members;
-    std::vector<std::size_t> begins(1, 0);
-    forEachInOrder(this->Exec, roots.size(),
+    const std::vector<std::size_t>& former = this->Result.members;
+    const std::vector<std::size_t>& formerBegins = this->Result.memberBegins;
+    std::vector<std::size_t> begins = beginsOfLists(this->Exec, count,
       [&](std::size_t i)
       {
-        for (const std::size_t former : contraction.membersOf(roots[i]))
+        std::size_t size = 0;
+        std::vector<std::size_t> memory;
+        for (const std::size_t vertex : placingAt(i, memory))
         {
-          const auto begin = this->Result.members.begin();
-          members.insert(members.end(),
-            begin + static_cast<std::ptrdiff_t>(this->Result.memberBegins[former]),
-            begin + static_cast<std::ptrdiff_t>(this->Result.memberBegins[former + 1]));
+          size += formerBegins[vertex + 1] - formerBegins[vertex];
         }
-        vertices.positions.push_back(contraction.positionOf(roots[i]));
-        vertices.weights.push_back(static_cast<double>(members.size() - begins.back()));
-        begins.push_back(members.size());
+        return size;
       });
-    this->Vertices = std::move(vertices);
+    std::vector<std::size_t> members(begins.back());
+    forEachIndex(this->Exec, count,
+      [&](std::size_t i)
+      {
+        std::size_t* end = members.data() + begins[i];
+        std::vector<std::size_t> memory;
+        for (const std::size_t vertex : placingAt(i, memory))
+        {
+          end = std::copy(
+            former.data() + formerBegins[vertex], former.data() + formerBegins[vertex + 1], end);
+        }
+      });
     this->Result.members = std::move(members);
     this->Result.memberBegins = std::move(begins);
   }
 
-  /// Pairs vertices along short edges, shortest first. @returns the first vertex of each one's pair
-  std::vector<std::size_t> pairsOfShortEdges() const
+  /// Pairs vertices along short edges, shortest first.
+  VertexParts pairsOfShortEdges(const SurfaceMesh& mesh) const
   {
-    std::vector<std::size_t> groups(this->count());
-    std::iota(groups.begin(), groups.end(), std::size_t{ 0 });
+    std::vector<std::size_t> seconds(this->count(), 0); // of pairs; never the first vertex
     std::vector<bool> isTaken(this->count(), false);
-    const std::vector<VertexPair> edges =
-      shortEdges(this->Exec, this->Vertices.positions, this->Result.triangles);
+    const std::vector<VertexPair> edges = shortEdges(this->Exec, this->Result.positions, mesh);
     forEachInOrder(this->Exec, edges.size(),
       [&](std::size_t i)
       {
@@ -143,10 +317,22 @@ private:
         if (!isTaken[a] && !isTaken[b])
         {
           isTaken[a] = isTaken[b] = true;
-          groups[b] = a;
+          seconds[a] = this->AreKept[a] || this->AreKept[b] ? 0 : b;
         }
       });
-    return groups;
+    const std::vector<std::size_t> firsts = markedOf(this->Exec, seconds);
+    VertexParts pairs;
+    pairs.vertices.resize(2 * firsts.size());
+    pairs.parts.resize(firsts.size());
+    forEachIndex(this->Exec, firsts.size(),
+      [&](std::size_t i)
+      {
+        pairs.vertices[2 * i] = firsts[i];
+        pairs.vertices[2 * i + 1] = seconds[firsts[i]];
+        pairs.parts[i] = { 2 * i, 2 * i + 2 };
+      });
+    pairs.number(this->Exec, this->count());
+    return pairs;
   }
 
   void putNearestFirst(std::size_t vertex)
@@ -164,7 +350,6 @@ private:
 
   const Execution& Exec;
   const std::vector<Vector>& Crossings;
-  WeightedVertices Vertices;
   std::vector<char> AreKept; // each of these
   MergedTriangles Result;    // of these vertices
 };

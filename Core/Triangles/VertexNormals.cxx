@@ -18,73 +18,57 @@ bool hasDirection(const Vector& vector)
   return std::isfinite(length) && length > 0.0;
 }
 
-/// The area-weighted sum of triangle normals at each vertex, in any unit.
-std::vector<Vector> triangleNormals(const Execution& execution,
-  const std::vector<Vector>& positions, const std::vector<SurfaceTriangle>& triangles)
-{
-  std::vector<Vector> sums(positions.size());
-  forEachInOrder(execution, triangles.size(),
-    [&](std::size_t i)
-    {
-      const auto& [a, b, c] = triangles[i];
-      const Vector normal = cross(positions[b] - positions[a], positions[c] - positions[a]);
-      for (const std::size_t vertex : { a, b, c })
-      {
-        sums[vertex] += normal;
-      }
-    });
-  return sums;
-}
-
-/// For each vertex, the sum of the values at the other corners of its triangles.
-std::vector<Vector> sumsAround(const Execution& execution, const std::vector<Vector>& all,
-  const std::vector<SurfaceTriangle>& triangles)
-{
-  std::vector<Vector> sums(all.size());
-  forEachInOrder(execution, triangles.size(),
-    [&](std::size_t i)
-    {
-      const auto& [a, b, c] = triangles[i];
-      sums[a] += all[b] + all[c];
-      sums[b] += all[c] + all[a];
-      sums[c] += all[a] + all[b];
-    });
-  return sums;
-}
-
 /// Vertices with wrong fits: their normals disagree with both the triangles around and the
 /// triangles around their neighbors. (Thin triangles around one vertex can have any normal.)
 /// @param normals of vertices, except for `others`
-/// @param ofTriangles triangleNormals()
+/// @param ofTriangles areaNormals()
 std::vector<std::size_t> failedNormals(const Execution& execution, const SurfacePoints& points,
-  const std::vector<SurfaceTriangle>& triangles, const std::vector<Vector>& normals,
-  const std::vector<std::size_t>& others, const std::vector<Vector>& ofTriangles)
+  const std::vector<SurfaceTriangle>& triangles, const OutgoingHalfEdges& outgoing,
+  const std::vector<Vector>& normals, const std::vector<std::size_t>& others,
+  const std::vector<Vector>& ofTriangles)
 {
   constexpr double minCosine = 0.5; // of 60 degrees
-  const auto isTurnedFrom = [&](const std::vector<Vector>& means, std::size_t vertex)
+  const auto isTurnedFrom = [&](const Vector& mean, std::size_t vertex)
+  { return hasDirection(mean) && dot(normals[vertex], directionOf(mean)) < minCosine; };
+  const auto sumAround = [&](std::size_t vertex)
   {
-    return hasDirection(means[vertex]) &&
-           dot(normals[vertex], directionOf(means[vertex])) < minCosine;
+    Vector sum{};
+    outgoing.forEachAt(vertex,
+      [&](HalfEdge side)
+      {
+        const SurfaceTriangle& corners = triangles[side / 3];
+        sum += ofTriangles[corners[nextOf(side) % 3]] + ofTriangles[corners[lastOf(side) % 3]];
+      });
+    return sum;
   };
   std::vector<char> isOther(normals.size(), 0);
   forEachIndex(execution, others.size(), [&](std::size_t i) { isOther[others[i]] = 1; });
-  std::vector<std::size_t> failed = itemsThat(execution, normals.size(),
+  return itemsThat(execution, normals.size(),
     [&](std::size_t vertex)
     {
       return !isOther[vertex] && points.fits[vertex].order != FitOrder::Crease &&
-             isTurnedFrom(ofTriangles, vertex);
+             isTurnedFrom(ofTriangles[vertex], vertex) && isTurnedFrom(sumAround(vertex), vertex);
     });
-  if (!failed.empty())
-  {
-    const std::vector<Vector> around = sumsAround(execution, ofTriangles, triangles);
-    failed.erase(std::remove_if(failed.begin(), failed.end(),
-                   [&](std::size_t vertex) { return !isTurnedFrom(around, vertex); }),
-      failed.end());
-  }
-  return failed;
 }
 
 } // namespace
+
+std::vector<Vector> areaNormals(const Execution& execution, const std::vector<Vector>& positions,
+  const std::vector<SurfaceTriangle>& triangles, const OutgoingHalfEdges& outgoing)
+{
+  std::vector<Vector> sums(positions.size());
+  forEachIndex(execution, sums.size(),
+    [&](std::size_t vertex)
+    {
+      outgoing.forEachAt(vertex,
+        [&](HalfEdge side)
+        {
+          const auto& [a, b, c] = triangles[side / 3];
+          sums[vertex] += cross(positions[b] - positions[a], positions[c] - positions[a]);
+        });
+    });
+  return sums;
+}
 
 std::vector<Vector> vertexNormals(const Execution& execution, const SurfacePoints& points,
   const std::vector<SurfaceTriangle>& triangles, bool areOfField)
@@ -92,11 +76,13 @@ std::vector<Vector> vertexNormals(const Execution& execution, const SurfacePoint
   std::vector<Vector> normals(points.positions.size());
   std::vector<std::size_t> others = setFieldNormals(execution, points, areOfField,
     [&normals](std::size_t vertex, const Vector& normal) { normals[vertex] = normal; });
-  const std::vector<Vector> ofTriangles = triangleNormals(execution, points.positions, triangles);
+  const OutgoingHalfEdges outgoing(execution, triangles, points.positions.size());
+  const std::vector<Vector> ofTriangles =
+    areaNormals(execution, points.positions, triangles, outgoing);
   if (others.size() < normals.size())
   {
     const std::vector<std::size_t> failed =
-      failedNormals(execution, points, triangles, normals, others, ofTriangles);
+      failedNormals(execution, points, triangles, outgoing, normals, others, ofTriangles);
     others.insert(others.end(), failed.begin(), failed.end());
   }
   forEachIndex(execution, others.size(),

@@ -4,12 +4,17 @@
 #include "Core/Base/Execution.h"
 #include "Core/Base/Vector.h"
 #include "Core/Extraction/SurfacePoints.h"
-#include "Core/Triangles/TriangleGeometry.h"
+#include "Core/Triangles/SurfaceMesh.h"
 
 #include <vector>
 
 namespace isopoint
 {
+
+/// The sum of the normals of the triangles at each vertex, weighted by area, in any unit.
+/// @throws std::bad_alloc, Aborted
+std::vector<Vector> areaNormals(const Execution& execution, const std::vector<Vector>& positions,
+  const std::vector<SurfaceTriangle>& triangles, const OutgoingHalfEdges& outgoing);
 
 /// The normals of vertices: opposite to the fits' gradients if `areOfField`, otherwise the
 /// area-weighted mean of the triangle normals. The mean also replaces a missing normal, and one of

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/Triangles/VertexParts.h"
 
-#include "Core/Base/Lists.h"
+#include "Core/Base/Hash.h"
 
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <atomic>
+#include <iterator>
 #include <utility>
 
 namespace isopoint
@@ -13,189 +14,292 @@ namespace isopoint
 namespace
 {
 
-/// The distinct groups, or parts, of a triangle's vertices.
-class LabelsOfTriangle
+/// The lowest vertex that is connected to each vertex within its group: a forest in which all
+/// threads hang higher roots below lower ones.
+class ConnectedGroups
 {
 public:
-  LabelsOfTriangle(const std::vector<std::size_t>& labels, const SurfaceTriangle& triangle)
+  ConnectedGroups(
+    const Execution& execution, const SurfaceMesh& mesh, const std::vector<std::size_t>& groups)
+    : Parents(groups.size())
   {
-    for (const std::size_t vertex : triangle)
-    {
-      const std::size_t label = labels[vertex];
-      if (label != VertexParts::none && std::find(this->begin(), this->end(), label) == this->end())
+    forEachIndex(execution, groups.size(),
+      [this](std::size_t vertex)
+      { this->Parents[vertex].store(vertex, std::memory_order_relaxed); });
+    forEachIndex(execution, 3 * mesh.triangles().size(),
+      [&](HalfEdge side)
       {
-        this->Labels[this->Count++] = label;
+        const bool isFirst = mesh.twinOf(side) == noHalfEdge || side < mesh.twinOf(side);
+        if (isFirst && groups[mesh.startOf(side)] == groups[mesh.endOf(side)])
+        {
+          this->unite(mesh.startOf(side), mesh.endOf(side));
+        }
+      });
+  }
+
+  std::size_t rootOf(std::size_t vertex)
+  {
+    constexpr auto relaxed = std::memory_order_relaxed;
+    for (std::size_t parent = this->Parents[vertex].load(relaxed); parent != vertex;
+         parent = this->Parents[vertex].load(relaxed))
+    {
+      // Halves the path for later calls.
+      this->Parents[vertex].store(this->Parents[parent].load(relaxed), relaxed);
+      vertex = parent;
+    }
+    return vertex;
+  }
+
+private:
+  void unite(std::size_t a, std::size_t b)
+  {
+    for (;;)
+    {
+      const auto [low, high] = std::minmax({ this->rootOf(a), this->rootOf(b) });
+      std::size_t expected = high;
+      if (low == high || this->Parents[high].compare_exchange_strong(expected, low))
+      {
+        return;
       }
     }
   }
 
-  const std::size_t* begin() const { return this->Labels.data(); }
-  const std::size_t* end() const { return this->Labels.data() + this->Count; }
+  std::vector<std::atomic<std::size_t>> Parents; // itself for roots
+};
+
+/// Merges all simply connected parts, and separates some again until the others can be merged.
+class VertexContraction
+{
+public:
+  VertexContraction(const Execution& execution, const SurfaceMesh& mesh, const VertexParts& parts)
+    : Exec(execution)
+    , Mesh(mesh)
+    , Parts(parts)
+    , AreMerged(parts.size())
+  {
+    forEachIndex(execution, parts.size(),
+      [this](std::size_t part) { this->AreMerged[part] = this->isSimple(part) ? 1 : 0; });
+  }
+
+  std::vector<char> contract()
+  {
+    std::vector<std::size_t> suspects = markedOf(this->Exec, this->AreMerged);
+    while (!suspects.empty())
+    {
+      const std::vector<std::size_t> failed = this->failedOf(suspects);
+      const std::vector<std::size_t> separated = this->lowestAmongNeighbors(failed);
+      suspects = failed;
+      forEachInOrder(this->Exec, separated.size(),
+        [&](std::size_t i)
+        {
+          this->AreMerged[separated[i]] = 0;
+          this->forPartsAround(separated[i], [&](std::size_t other) { suspects.push_back(other); });
+        });
+      suspects = sortedUnique(this->Exec, suspects, this->Parts.size());
+    }
+    return std::move(this->AreMerged);
+  }
 
 private:
-  std::array<std::size_t, 3> Labels{};
-  std::size_t Count = 0;
+  /// Whether a part is simply connected: vertices - edges + triangles = 1.
+  bool isSimple(std::size_t part) const
+  {
+    std::size_t edges = 0;
+    std::size_t others = 0;
+    for (const std::size_t vertex : this->Parts.verticesOf(part))
+    {
+      ++others;
+      this->Mesh.outgoing().forEachAt(vertex,
+        [&](HalfEdge side)
+        {
+          const std::size_t next = this->Mesh.endOf(side);
+          const std::size_t last = this->Mesh.oppositeOf(side);
+          if (this->Parts.isInside(next, part))
+          {
+            edges += vertex < next || this->Mesh.twinOf(side) == noHalfEdge ? 1 : 0;
+            others += vertex < std::min(next, last) && this->Parts.isInside(last, part) ? 1 : 0;
+          }
+        });
+    }
+    return others == edges + 1;
+  }
+
+  std::vector<std::size_t> failedOf(const std::vector<std::size_t>& suspects) const
+  {
+    constexpr std::size_t grain = 1024;
+    return collected<std::size_t>(this->Exec, { suspects.size(), 4 * grain, grain },
+      [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
+      {
+        std::vector<std::size_t> ring;
+        std::copy_if(suspects.begin() + static_cast<std::ptrdiff_t>(begin),
+          suspects.begin() + static_cast<std::ptrdiff_t>(end), std::back_inserter(found),
+          [&](std::size_t part) { return this->AreMerged[part] && !this->isSurface(part, ring); });
+      });
+  }
+
+  /// Calls visit(other) for all parts that share a triangle with a part, often repeatedly.
+  template <class Visit>
+  void forPartsAround(std::size_t part, const Visit& visit) const
+  {
+    for (const std::size_t vertex : this->Parts.verticesOf(part))
+    {
+      this->Mesh.outgoing().forEachAt(vertex,
+        [&](HalfEdge side)
+        {
+          for (const std::size_t neighbor : { this->Mesh.endOf(side), this->Mesh.oppositeOf(side) })
+          {
+            const std::size_t other = this->Parts.partOf[neighbor];
+            if (other != part && other != VertexParts::none)
+            {
+              visit(other);
+            }
+          }
+        });
+    }
+  }
+
+  /// Of the failed parts, those with the lowest hash among their failed neighbors.
+  std::vector<std::size_t> lowestAmongNeighbors(const std::vector<std::size_t>& failed) const
+  {
+    const auto keyOf = [](std::size_t part) { return std::pair(mixBits(part + 1), part); };
+    std::vector<std::size_t> first = itemsThat(this->Exec, failed.size(),
+      [&](std::size_t i)
+      {
+        bool isFirst = true;
+        this->forPartsAround(failed[i],
+          [&](std::size_t other)
+          {
+            isFirst = isFirst && (!std::binary_search(failed.begin(), failed.end(), other) ||
+                                   keyOf(failed[i]) < keyOf(other));
+          });
+        return isFirst;
+      });
+    std::transform(
+      first.begin(), first.end(), first.begin(), [&](std::size_t i) { return failed[i]; });
+    return first;
+  }
+
+  /// A number that the vertices of a merged part share.
+  std::size_t mergedOf(std::size_t vertex) const
+  {
+    const std::size_t part = this->Parts.partOf[vertex];
+    return part != VertexParts::none && this->AreMerged[part] ? this->Mesh.vertexCount() + part
+                                                              : vertex;
+  }
+
+  /// Whether the triangles around a merged part form a (half) disk, and those that become edges
+  /// leave no gap and no loop: seen from the part, its neighbors are one cycle of at least three
+  /// vertices or, at a border, one path, and each vertex is met once.
+  /// @param ring reused memory
+  bool isSurface(std::size_t part, std::vector<std::size_t>& ring) const
+  {
+    // Outgoing that leave the part, and those of them at a border, where a path begins.
+    HalfEdge start = noHalfEdge;
+    std::size_t pathCount = 0;
+    for (const std::size_t vertex : this->Parts.verticesOf(part))
+    {
+      this->Mesh.outgoing().forEachAt(vertex,
+        [&](HalfEdge side)
+        {
+          if (!this->Parts.isInside(this->Mesh.endOf(side), part))
+          {
+            const bool isAtBorder = this->Mesh.twinOf(side) == noHalfEdge;
+            pathCount += isAtBorder ? 1 : 0;
+            start = isAtBorder || pathCount == 0 ? side : start;
+          }
+        });
+    }
+    ring.clear();
+    const auto meet = [&](std::size_t vertex)
+    {
+      const std::size_t merged = this->mergedOf(vertex);
+      if (ring.empty() || ring.back() != merged)
+      {
+        ring.push_back(merged);
+      }
+    };
+    // Counterclockwise around the part, from one side that leaves it to the next.
+    HalfEdge side = pathCount > 1 ? noHalfEdge : start;
+    while (side != noHalfEdge)
+    {
+      meet(this->Mesh.endOf(side));
+      const std::size_t last = this->Mesh.oppositeOf(side);
+      const bool isLastInside = this->Parts.isInside(last, part);
+      if (!isLastInside)
+      {
+        meet(last);
+      }
+      side = this->Mesh.twinOf(isLastInside ? nextOf(side) : lastOf(side));
+      side = side == start ? noHalfEdge : side;
+    }
+    const bool isCycle = pathCount == 0;
+    if (isCycle && ring.size() > 1 && ring.front() == ring.back())
+    {
+      ring.pop_back();
+    }
+    const std::size_t least = isCycle ? 3 : 2;
+    std::sort(ring.begin(), ring.end());
+    return ring.size() >= least && std::adjacent_find(ring.begin(), ring.end()) == ring.end();
+  }
+
+  const Execution& Exec;
+  const SurfaceMesh& Mesh;
+  const VertexParts& Parts;
+  std::vector<char> AreMerged;
 };
 
 } // namespace
 
-/// Labels the vertices of one group at a time by part. Reuses memory.
-class VertexParts::Labeling
+void VertexParts::number(const Execution& execution, std::size_t vertexCount)
 {
-public:
-  Labeling(const std::vector<SurfaceTriangle>& triangles, const std::vector<std::size_t>& groups)
-    : Triangles(triangles)
-    , Groups(groups)
-  {
-  }
-
-  /// Sorts the vertices of a group by part, and appends the parts.
-  /// @param own the vertices, at `begin` among those of all groups
-  void label(std::size_t* own, std::size_t count, std::size_t begin,
-    const IndexSpan<std::size_t>& around, std::vector<Part>& parts)
-  {
-    this->Members.assign(own, own + count);
-    this->Roots.resize(count);
-    std::iota(this->Roots.begin(), this->Roots.end(), std::size_t{ 0 });
-    this->findEdges(around);
-    for (const auto& [a, b] : this->Edges)
-    {
-      const auto [low, high] = std::minmax({ this->rootOf(a), this->rootOf(b) });
-      this->Roots[high] = low;
-    }
-    this->countUp();
-    std::sort(this->Order.begin(), this->Order.end());
-    for (std::size_t first = 0, end = 0; first < count; first = end)
-    {
-      const std::size_t root = this->Order[first].first;
-      for (; end < count && this->Order[end].first == root; ++end)
-      {
-        own[end] = this->Members[this->Order[end].second];
-      }
-      if (end - first > 1)
-      {
-        parts.push_back({ begin + first, begin + end, this->Characteristics[root] == 1 });
-      }
-    }
-  }
-
-private:
-  using Edge = std::pair<std::size_t, std::size_t>;
-
-  std::size_t placeOf(std::size_t vertex) const
-  {
-    return static_cast<std::size_t>(
-      std::lower_bound(this->Members.begin(), this->Members.end(), vertex) - this->Members.begin());
-  }
-
-  /// The edges between members, and the triangles between three members.
-  void findEdges(const IndexSpan<std::size_t>& around)
-  {
-    const std::size_t group = this->Groups[this->Members.front()];
-    this->Edges.clear();
-    this->Inner.clear();
-    for (const std::size_t triangle : around)
-    {
-      std::array<std::size_t, 3> places{};
-      std::size_t inside = 0;
-      for (const std::size_t vertex : this->Triangles[triangle])
-      {
-        if (this->Groups[vertex] == group)
-        {
-          places[inside++] = this->placeOf(vertex);
-        }
-      }
-      for (std::size_t i = 1; i < inside; ++i)
-      {
-        this->Edges.emplace_back(std::minmax(places[i - 1], places[i]));
-      }
-      if (inside == 3)
-      {
-        this->Edges.emplace_back(std::minmax(places[0], places[2]));
-        this->Inner.push_back(places[0]);
-      }
-    }
-    keepUnique(this->Edges);
-  }
-
-  std::size_t rootOf(std::size_t place)
-  {
-    while (this->Roots[place] != place)
-    {
-      place = this->Roots[place] = this->Roots[this->Roots[place]];
-    }
-    return place;
-  }
-
-  /// The Euler characteristic of each part, and the part of each member.
-  void countUp()
-  {
-    this->Order.clear();
-    this->Characteristics.assign(this->Members.size(), 0);
-    for (std::size_t place = 0; place < this->Members.size(); ++place)
-    {
-      this->Order.emplace_back(this->rootOf(place), place);
-      ++this->Characteristics[this->Order.back().first];
-    }
-    for (const Edge& edge : this->Edges)
-    {
-      --this->Characteristics[this->rootOf(edge.first)];
-    }
-    for (const std::size_t place : this->Inner)
-    {
-      ++this->Characteristics[this->rootOf(place)];
-    }
-  }
-
-  const std::vector<SurfaceTriangle>& Triangles;
-  const std::vector<std::size_t>& Groups;
-  std::vector<std::size_t> Members;
-  // Indices of members.
-  std::vector<std::size_t> Roots; // of lower number, down to the first member of the part
-  std::vector<Edge> Edges;
-  std::vector<std::size_t> Inner; // triangles between three members, by one of them
-  std::vector<std::pair<std::size_t, std::size_t>> Order; // roots, and members
-  std::vector<std::ptrdiff_t> Characteristics;            // at the roots
-};
-
-VertexParts::VertexParts(const Execution& execution, const std::vector<SurfaceTriangle>& triangles,
-  const std::vector<std::size_t>& groups, std::size_t groupCount)
-  : PartOf(groups.size(), none)
-{
-  const ItemLists trianglesOfGroups(execution, groupCount, triangles.size(),
-    [&](std::size_t triangle) { return LabelsOfTriangle(groups, triangles[triangle]); });
-  ItemLists members(execution, groupCount, groups.size(),
-    [&](std::size_t vertex) { return std::array{ groups[vertex] }; });
-  std::vector<std::size_t> begins(groupCount + 1, groups.size());
-  forEachIndex(execution, groupCount,
-    [&](std::size_t group)
-    { begins[group] = static_cast<std::size_t>(members.at(group).first - members.at(0).first); });
-  this->Vertices = std::move(members).all();
-  constexpr std::size_t grain = 1024;
-  this->Parts = collected<Part>(execution, { groupCount, 8 * grain, grain },
-    [&](std::size_t begin, std::size_t end, std::vector<Part>& found)
-    {
-      Labeling labeling(triangles, groups);
-      for (std::size_t group = begin; group < end; ++group)
-      {
-        const std::size_t count = begins[group + 1] - begins[group];
-        if (count > 1)
-        {
-          labeling.label(this->Vertices.data() + begins[group], count, begins[group],
-            trianglesOfGroups.at(group), found);
-        }
-      }
-    });
-  forEachIndex(execution, this->Parts.size(),
+  this->partOf.assign(vertexCount, none);
+  forEachIndex(execution, this->size(),
     [this](std::size_t part)
     {
       for (const std::size_t vertex : this->verticesOf(part))
       {
-        this->PartOf[vertex] = part;
+        this->partOf[vertex] = part;
       }
     });
-  this->Triangles.emplace(execution, this->Parts.size(), triangles.size(),
-    [&](std::size_t triangle) { return LabelsOfTriangle(this->PartOf, triangles[triangle]); });
+}
+
+VertexParts partsOfGroups(const Execution& execution, const SurfaceMesh& mesh,
+  const std::vector<std::size_t>& groups, std::size_t groupCount)
+{
+  ConnectedGroups connected(execution, mesh, groups);
+  std::vector<std::size_t> roots(groups.size());
+  forEachIndex(
+    execution, roots.size(), [&](std::size_t vertex) { roots[vertex] = connected.rootOf(vertex); });
+  ItemLists members(execution, roots.size(), roots.size(),
+    [&roots](std::size_t vertex) { return std::array{ roots[vertex] }; });
+  const std::vector<std::size_t> firsts = itemsThat(
+    execution, roots.size(), [&](std::size_t vertex) { return members.at(vertex).count > 1; });
+  using GroupFirst = std::pair<std::size_t, std::size_t>;
+  std::vector<GroupFirst> ordered(firsts.size());
+  forEachIndex(execution, firsts.size(),
+    [&](std::size_t i) {
+      ordered[i] = { groups[firsts[i]], firsts[i] };
+    });
+  ordered = sortedUnique(
+    execution, ordered, groupCount, [](const GroupFirst& first) { return first.first; });
+  VertexParts result;
+  result.parts.resize(ordered.size());
+  forEachIndex(execution, ordered.size(),
+    [&](std::size_t part)
+    {
+      const IndexSpan<std::size_t> own = members.at(ordered[part].second);
+      const auto begin = static_cast<std::size_t>(own.first - members.at(0).first);
+      result.parts[part] = { begin, begin + own.count };
+    });
+  result.vertices = std::move(members).all();
+  result.number(execution, groups.size());
+  return result;
+}
+
+std::vector<char> contractibleParts(
+  const Execution& execution, const SurfaceMesh& mesh, const VertexParts& parts)
+{
+  return VertexContraction(execution, mesh, parts).contract();
 }
 
 } // namespace isopoint

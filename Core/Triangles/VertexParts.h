@@ -3,61 +3,60 @@
 
 #include "Core/Base/Execution.h"
 #include "Core/Base/Lists.h"
-#include "Core/Triangles/TriangleGeometry.h"
+#include "Core/Triangles/SurfaceMesh.h"
 
 #include <cstddef>
 #include <limits>
-#include <optional>
 #include <vector>
 
 namespace isopoint
 {
 
-/// The connected parts of groups of vertices, along edges of triangles, without single vertices.
-class VertexParts
+/// Sets of at least two vertices, connected by edges of triangles, that are to become one.
+struct VertexParts
 {
-public:
-  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-
-  /// @param groups of the vertices, below groupCount
-  /// @throws std::bad_alloc, Aborted
-  /// Complexity: O(triangles + groups), and O(n log n) for those within one group
-  VertexParts(const Execution& execution, const std::vector<SurfaceTriangle>& triangles,
-    const std::vector<std::size_t>& groups, std::size_t groupCount);
-
-  std::size_t size() const { return this->Parts.size(); }
-
-  /// The part of a vertex, or none if it is alone. Parts are ordered by group and first vertex.
-  std::size_t partOf(std::size_t vertex) const { return this->PartOf[vertex]; }
-
-  IndexSpan<std::size_t> verticesOf(std::size_t part) const
-  {
-    const Part& own = this->Parts[part];
-    return { this->Vertices.data() + own.begin, own.end - own.begin };
-  }
-
-  /// Whether a part is simply connected: vertices - edges + triangles = 1.
-  bool isSimple(std::size_t part) const { return this->Parts[part].isSimple; }
-
-  IndexSpan<std::size_t> trianglesAround(std::size_t part) const
-  {
-    return this->Triangles->at(part);
-  }
-
-private:
   struct Part
   {
     std::size_t begin; // among the vertices
     std::size_t end;
-    bool isSimple;
   };
 
-  class Labeling;
+  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
-  std::vector<std::size_t> Vertices; // by group, and by part within
-  std::vector<Part> Parts;
-  std::vector<std::size_t> PartOf;
-  std::optional<ItemLists> Triangles; // by part
+  std::size_t size() const { return this->parts.size(); }
+
+  bool isInside(std::size_t vertex, std::size_t part) const { return this->partOf[vertex] == part; }
+
+  /// Ascending.
+  IndexSpan<std::size_t> verticesOf(std::size_t part) const
+  {
+    const Part& own = this->parts[part];
+    return { this->vertices.data() + own.begin, own.end - own.begin };
+  }
+
+  /// Sets partOf. @throws std::bad_alloc, Aborted
+  void number(const Execution& execution, std::size_t vertexCount);
+
+  std::vector<std::size_t> vertices;
+  std::vector<Part> parts;
+  std::vector<std::size_t> partOf; // each vertex of the mesh; or none
 };
+
+/// The connected parts of groups of vertices, ordered by group and first vertex.
+/// @param groups of the vertices, below groupCount. The triangles around vertices in groups of
+/// several form a (half) disk
+/// @throws std::bad_alloc, Aborted
+/// Complexity: O(triangles + groups), and O(n log n) for the vertices of one group
+VertexParts partsOfGroups(const Execution& execution, const SurfaceMesh& mesh,
+  const std::vector<std::size_t>& groups, std::size_t groupCount);
+
+/// Which parts can each become one vertex, all at once, without a change of topology:
+/// docs/triangles.md, "Regularization".
+/// @param parts the triangles around their vertices form a (half) disk
+/// @returns for each part whether it can
+/// @throws std::bad_alloc, Aborted
+/// Complexity: O(n log n), mostly
+std::vector<char> contractibleParts(
+  const Execution& execution, const SurfaceMesh& mesh, const VertexParts& parts);
 
 } // namespace isopoint

@@ -6,7 +6,7 @@
 #include "Core/OutputArrays.h"
 #include "Core/Triangles/EdgeFlipping.h"
 #include "Core/Triangles/ShortEdges.h"
-#include "Core/Triangles/VertexLink.h"
+#include "Core/Triangles/SurfaceMesh.h"
 #include "Core/Triangles/VertexMerging.h"
 
 #include <gtest/gtest.h>
@@ -281,9 +281,10 @@ TEST(Regularization, EveryStepAsksForAborts)
   };
   const std::vector<char> areKept(positions.size(), 0);
   const std::size_t onePass = triangles.size() / most;
+  const SurfaceMesh mesh({}, triangles, positions.size());
   EXPECT_GE(
-    questionsOf([&]() { branchedVertices(execution, triangles, positions.size()); }), 2 * onePass);
-  EXPECT_GE(questionsOf([&]() { shortEdges(execution, positions, triangles); }), 2 * onePass);
+    questionsOf([&]() { SurfaceMesh(execution, triangles, positions.size()); }), 2 * onePass);
+  EXPECT_GE(questionsOf([&]() { shortEdges(execution, positions, mesh); }), 2 * onePass);
   EXPECT_GE(questionsOf([&]() { verticesOf(execution, triangles, positions.size()); }), onePass);
   EXPECT_GE(questionsOf([&]() { ordered(execution, triangles, positions.size()); }), onePass);
   // Twins: two passes over sides, at least one round; normals; order.
