@@ -713,7 +713,8 @@ class Imports(unittest.TestCase):
         has_vtk = importlib.util.find_spec("vtkmodules") is not None
         for name in set(scatteredisopoints._MODULES) - set(scatteredisopoints.__all__):
             is_in_python = not has_vtk and name in (
-                "vtkIsopointSplatPolygons", "vtkScatteredIsopointFilter", "vtkScatteredIsosurfaceFilter")
+                "vtkIsopointSplatPolygons", *(f"vtkScattered{kind}Filter" for kind in (
+                    "Gradient", "Grid", "Isopoint", "Isosurface", "Line", "Probe", "Slice")))
             text = f"{name} needs " + ("VTK: pip install vtk$" if is_in_python else "classes that are compiled")
             with self.assertRaisesRegex(ImportError, text):
                 exec(f"from scatteredisopoints import {name}")
