@@ -151,9 +151,9 @@ typedef struct isopoint_options
   /* Triangles only: whether to merge vertices and flip edges, which gives fewer and well-shaped
    * triangles. 0: the exact isosurface of the Delaunay tetrahedralization. */
   int32_t regularize; /* Default: 1 */
-  /* Triangles only, with drop_gaps: whether gaps begin only where edges span a void, and not at flat
-   * tetrahedra on the convex hull, so that a surface through a full body has a clean rim: for
-   * slices. */
+  /* Triangles only, for slices: whether gaps begin only where edges span a void, and not at flat
+   * tetrahedra on the convex hull, and vertices of the rim stay when others merge, so that the rim is
+   * that of the body. */
   int32_t keep_hull_slivers; /* Default: 0 */
 } isopoint_options;
 

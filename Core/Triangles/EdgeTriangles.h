@@ -52,11 +52,11 @@ struct MarchedTriangles : EdgeTriangles<TSample>
 
 /// See mergeVertices(). @throws std::bad_alloc, Aborted
 template <class TSample>
-EdgeTriangles<TSample> withMergedVertices(
-  const Execution& execution, MarchedTriangles<TSample> marched, std::vector<char> areKept)
+EdgeTriangles<TSample> withMergedVertices(const Execution& execution,
+  MarchedTriangles<TSample> marched, std::vector<char> areKept, bool keepsRim)
 {
   MergedTriangles merged = mergeVertices(execution, marched.positions, marched.nearerEnds,
-    marched.endCount, std::move(marched.triangles), std::move(areKept));
+    marched.endCount, std::move(marched.triangles), std::move(areKept), keepsRim);
   EdgeTriangles<TSample> result;
   result.edges = chosenOf(execution, marched.edges, merged.members);
   result.edgeBegins = std::move(merged.memberBegins);

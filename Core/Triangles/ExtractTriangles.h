@@ -150,8 +150,8 @@ private:
         [&](std::size_t i)
         { kept.emplace(marched.edges[vertices[i]], std::move(fits[vertices[i]])); });
     }
-    return withMergedVertices(
-      partOf(execution, fitsEnd, 1.0), std::move(marched), std::move(areKept));
+    return withMergedVertices(partOf(execution, fitsEnd, 1.0), std::move(marched),
+      std::move(areKept), this->Request.keepsHullSlivers);
   }
 
   /// @param known fits that are reused

@@ -148,9 +148,10 @@ class VertexMerger
 {
 public:
   VertexMerger(const Execution& execution, const std::vector<Vector>& crossings,
-    std::vector<SurfaceTriangle> triangles, std::vector<char> areKept)
+    std::vector<SurfaceTriangle> triangles, std::vector<char> areKept, bool keepsRim)
     : Exec(execution)
     , Crossings(crossings)
+    , KeepsRim(keepsRim)
     , AreKept(std::move(areKept))
   {
     this->AreKept.resize(crossings.size(), 0);
@@ -185,7 +186,8 @@ private:
     return { this->Exec, std::move(this->Result.triangles), this->count() };
   }
 
-  /// Keeps branched vertices from now on, and merges the others at each sample.
+  /// Keeps branched vertices, and perhaps the rim, from now on, and merges the others at each
+  /// sample.
   void mergeAtEnds(std::vector<std::size_t> nearerEnds, std::size_t endCount)
   {
     const SurfaceMesh mesh = this->takeMesh();
@@ -193,7 +195,8 @@ private:
       [&](std::size_t vertex)
       {
         const SurfaceMesh::Fan fan = mesh.fanAt(vertex);
-        if (fan == SurfaceMesh::Fan::Branched || fan == SurfaceMesh::Fan::BackToBack)
+        if (fan == SurfaceMesh::Fan::Branched || fan == SurfaceMesh::Fan::BackToBack ||
+            (this->KeepsRim && mesh.isOpen(vertex)))
         {
           this->AreKept[vertex] = 1;
         }
@@ -210,14 +213,18 @@ private:
   void contract(
     const SurfaceMesh& mesh, const VertexParts& parts, const std::vector<Vector>& former)
   {
-    const std::vector<char> areMerged = contractibleParts(this->Exec, mesh, parts);
+    const PartPlaces places(mesh, parts, former, this->Result.memberBegins);
+    std::vector<char> areMerged = contractibleParts(this->Exec, mesh, parts);
+    if (this->KeepsRim)
+    {
+      this->keepUpright(mesh, parts, places, former, areMerged);
+    }
     const auto isMerged = [&](std::size_t vertex)
     { return parts.partOf[vertex] != VertexParts::none && areMerged[parts.partOf[vertex]]; };
     // The lowest vertex of each merged part, and all others.
     const std::vector<std::size_t> roots = itemsThat(this->Exec, this->count(),
       [&](std::size_t vertex)
       { return !isMerged(vertex) || parts.verticesOf(parts.partOf[vertex])[0] == vertex; });
-    const PartPlaces places(mesh, parts, former, this->Result.memberBegins);
     // The vertices that become one, and those of them that determine its place.
     const auto mergedAt = [&](std::size_t i) -> IndexSpan<std::size_t>
     {
@@ -246,6 +253,67 @@ private:
       });
     this->keepMembers(roots.size(), placingAt);
     this->Result.positions = std::move(positions);
+  }
+
+  /// Leaves parts apart that would turn triangles over, as they may next to a rim that stays.
+  void keepUpright(const SurfaceMesh& mesh, const VertexParts& parts, const PartPlaces& places,
+    const std::vector<Vector>& former, std::vector<char>& areMerged) const
+  {
+    std::vector<Vector> means(parts.parts.size());
+    forEachIndex(this->Exec, means.size(),
+      [&](std::size_t part)
+      {
+        std::vector<std::size_t> memory;
+        means[part] = places.meanOf(places.membersOf(part, memory));
+      });
+    const auto isTurned = [&](std::size_t triangle)
+    {
+      std::array<Vector, 3> before;
+      std::array<Vector, 3> after;
+      std::array<std::size_t, 3> merged{};
+      for (std::size_t i = 0; i < 3; ++i)
+      {
+        const std::size_t vertex = mesh.triangles()[triangle][i];
+        const std::size_t part = parts.partOf[vertex];
+        const bool isMerged = part != VertexParts::none && areMerged[part] != 0;
+        merged[i] = isMerged ? part : VertexParts::none;
+        before[i] = former[vertex];
+        after[i] = isMerged ? means[part] : before[i];
+      }
+      const bool vanishes =
+        (merged[0] != VertexParts::none && (merged[0] == merged[1] || merged[0] == merged[2])) ||
+        (merged[1] != VertexParts::none && merged[1] == merged[2]);
+      return !vanishes && dot(cross(before[1] - before[0], before[2] - before[0]),
+                            cross(after[1] - after[0], after[2] - after[0])) < 0.0;
+    };
+    for (;;)
+    {
+      const std::vector<std::size_t> turned =
+        itemsThat(this->Exec, mesh.triangles().size(), isTurned);
+      if (turned.empty())
+      {
+        return;
+      }
+      for (const std::size_t triangle : turned)
+      {
+        std::size_t farthest = VertexParts::none;
+        double most = -1.0;
+        for (const std::size_t vertex : mesh.triangles()[triangle])
+        {
+          const std::size_t part = parts.partOf[vertex];
+          if (part != VertexParts::none && areMerged[part] != 0 &&
+              lengthOf(means[part] - former[vertex]) > most)
+          {
+            most = lengthOf(means[part] - former[vertex]);
+            farthest = part;
+          }
+        }
+        if (farthest != VertexParts::none)
+        {
+          areMerged[farthest] = 0;
+        }
+      }
+    }
   }
 
   /// The triangles whose corners stay different.
@@ -350,6 +418,7 @@ private:
 
   const Execution& Exec;
   const std::vector<Vector>& Crossings;
+  const bool KeepsRim;
   std::vector<char> AreKept; // each of these
   MergedTriangles Result;    // of these vertices
 };
@@ -358,9 +427,9 @@ private:
 
 MergedTriangles mergeVertices(const Execution& execution, const std::vector<Vector>& crossings,
   const std::vector<std::size_t>& nearerEnds, std::size_t endCount,
-  std::vector<SurfaceTriangle> triangles, std::vector<char> areKept)
+  std::vector<SurfaceTriangle> triangles, std::vector<char> areKept, bool keepsRim)
 {
-  return VertexMerger(execution, crossings, std::move(triangles), std::move(areKept))
+  return VertexMerger(execution, crossings, std::move(triangles), std::move(areKept), keepsRim)
     .merge(nearerEnds, endCount);
 }
 

@@ -31,9 +31,10 @@ struct MergedTriangles
 /// @param endCount exceeds all of these numbers
 /// @param triangles ordered
 /// @param areKept vertices that stay, as do triangles between three of them; empty for none
+/// @param keepsRim whether vertices of edges with one triangle stay, too
 /// @throws std::bad_alloc, Aborted
 MergedTriangles mergeVertices(const Execution& execution, const std::vector<Vector>& crossings,
   const std::vector<std::size_t>& nearerEnds, std::size_t endCount,
-  std::vector<SurfaceTriangle> triangles, std::vector<char> areKept = {});
+  std::vector<SurfaceTriangle> triangles, std::vector<char> areKept = {}, bool keepsRim = false);
 
 } // namespace isopoint
