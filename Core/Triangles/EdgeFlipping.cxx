@@ -48,7 +48,9 @@ public:
     for (int round = 0; round < maxRounds && isAnyFlipped; ++round)
     {
       isAnyFlipped = false;
-      forEachIndex(this->Exec, this->States.size(), [this](HalfEdge side) { this->choose(side); });
+      std::vector<State> states(this->States.size(), State::Seen);
+      forEachIndex(this->Exec, states.size(), [&](HalfEdge side) { this->choose(side, states); });
+      this->States = std::move(states);
       forEachInOrder(this->Exec, this->States.size(),
         [&](HalfEdge side)
         {
@@ -69,20 +71,16 @@ private:
     Seen     // none does
   };
 
-  /// Examines a suspect edge, by its lower side.
-  void choose(HalfEdge side)
+  /// Examines a suspect edge by one of its sides.
+  void choose(HalfEdge side, std::vector<State>& states) const
   {
     const HalfEdge twin = this->Mesh.twinOf(side);
-    if (twin == noHalfEdge)
+    const auto isSuspect = [this](HalfEdge each) { return this->States[each] == State::Suspect; };
+    if (twin != noHalfEdge && (isSuspect(side) || isSuspect(twin)) && this->facesObtuse(side) &&
+        (side < twin || !this->facesObtuse(twin)) && this->isImproved(side))
     {
-      this->States[side] = State::Seen;
-    }
-    else if (side < twin)
-    {
-      const HalfEdge first = this->States[side] == State::Suspect ? side : twin;
-      const bool isChosen = this->States[first] == State::Suspect && this->isImproved(side);
-      this->States[side] = this->States[twin] = State::Seen;
-      this->States[first] = isChosen ? State::Chosen : State::Seen;
+      const bool isOwn = isSuspect(side) && (side < twin || !isSuspect(twin));
+      states[isOwn ? side : twin] = State::Chosen;
     }
   }
 
@@ -95,7 +93,10 @@ private:
       return false;
     }
     this->States[twin] = State::Seen;
-    if ((state == State::Suspect && !this->isImproved(side)) || !this->isFree(side))
+    const bool isImproved =
+      state == State::Chosen ||
+      ((this->facesObtuse(side) || this->facesObtuse(twin)) && this->isImproved(side));
+    if (!isImproved || !this->isFree(side))
     {
       return false;
     }
@@ -157,21 +158,25 @@ private:
     return !this->Mesh.hasEdge(c, d) && this->Mesh.fanAt(c) != SurfaceMesh::Fan::Branched;
   }
 
+  /// Whether the angle opposite to a side exceeds 90 degrees: at one side of an edge to be flipped.
+  bool facesObtuse(HalfEdge side) const
+  {
+    const std::size_t c = this->Mesh.oppositeOf(side);
+    return dot(this->edgeOf(c, this->Mesh.startOf(side)), this->edgeOf(c, this->Mesh.endOf(side))) <
+           0.0;
+  }
+
   /// Whether the angles at c and d, opposite the edge ab, add up to more than 180 degrees.
   bool isObtuse(std::size_t a, std::size_t b, std::size_t c, std::size_t d) const
   {
-    const auto sidesAt = [&](std::size_t corner)
-    { return std::pair(this->edgeOf(corner, a), this->edgeOf(corner, b)); };
-    const auto [cA, cB] = sidesAt(c);
-    const auto [dA, dB] = sidesAt(d);
-    const double cosC = dot(cA, cB);
-    const double cosD = dot(dA, dB);
-    if (cosC >= 0.0 && cosD >= 0.0)
+    const auto angleAt = [&](std::size_t corner)
     {
-      return false; // the usual case: both angles are at most 90 degrees
-    }
-    const double sinC = lengthOf(cross(cA, cB));
-    const double sinD = lengthOf(cross(dA, dB));
+      const Vector toA = this->edgeOf(corner, a);
+      const Vector toB = this->edgeOf(corner, b);
+      return std::array{ dot(toA, toB), lengthOf(cross(toA, toB)) }; // cosine, sine
+    };
+    const auto [cosC, sinC] = angleAt(c);
+    const auto [cosD, sinD] = angleAt(d);
     constexpr double minSine = 0.01; // a smaller excess is not worth a flip
     const double scale =
       std::sqrt(cosC * cosC + sinC * sinC) * std::sqrt(cosD * cosD + sinD * sinD);

@@ -3,7 +3,7 @@
 
 #include "Core/Base/Execution.h"
 #include "Core/Base/RawArray.h"
-#include "Core/Triangles/TriangleGeometry.h"
+#include "Core/Triangles/SurfaceTriangle.h"
 
 #include <cstddef>
 #include <limits>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Core/Base/Execution.h"
-#include "Core/Triangles/TriangleGeometry.h"
+#include "Core/Triangles/SurfaceTriangle.h"
 
 #include <cstddef>
 #include <vector>

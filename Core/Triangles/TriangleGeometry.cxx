@@ -5,10 +5,8 @@
 #include "Core/Triangles/SurfaceMesh.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <iterator>
 #include <numeric>
 
@@ -71,50 +69,6 @@ void takeBackFarMoves(const Execution& execution, const std::vector<Vector>& unm
 }
 
 } // namespace
-
-std::vector<std::size_t> verticesOf(const Execution& execution,
-  const std::vector<SurfaceTriangle>& triangles, std::size_t vertexCount)
-{
-  std::vector<std::atomic<bool>> areUsed(vertexCount);
-  forEachIndex(execution, triangles.size(),
-    [&](std::size_t i)
-    {
-      for (const std::size_t vertex : triangles[i])
-      {
-        areUsed[vertex].store(true, std::memory_order_relaxed);
-      }
-    });
-  return markedOf(execution, areUsed);
-}
-
-std::vector<SurfaceTriangle> ordered(
-  const Execution& execution, std::vector<SurfaceTriangle> triangles, std::size_t vertexCount)
-{
-  forEachIndex(execution, triangles.size(),
-    [&triangles](std::size_t i)
-    {
-      SurfaceTriangle& corners = triangles[i];
-      std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-    });
-  return sortedUnique(execution, triangles, vertexCount,
-    [](const SurfaceTriangle& triangle) { return static_cast<std::uint64_t>(triangle[0]); });
-}
-
-std::vector<SurfaceTriangle> renumbered(const Execution& execution,
-  const std::vector<SurfaceTriangle>& triangles, const std::vector<std::size_t>& order,
-  std::size_t vertexCount)
-{
-  std::vector<std::size_t> number(vertexCount);
-  forEachIndex(execution, order.size(), [&](std::size_t place) { number[order[place]] = place; });
-  std::vector<SurfaceTriangle> result(triangles.size());
-  forEachIndex(execution, triangles.size(),
-    [&](std::size_t i)
-    {
-      const auto& [a, b, c] = triangles[i];
-      result[i] = { number[a], number[b], number[c] };
-    });
-  return ordered(execution, std::move(result), order.size());
-}
 
 void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>& unmoved,
   const std::vector<SurfaceTriangle>& triangles, std::vector<LocalFit>& fits)

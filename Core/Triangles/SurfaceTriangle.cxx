@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "Core/Triangles/SurfaceTriangle.h"
+
+#include "Core/Base/Lists.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <utility>
+
+namespace isopoint
+{
+
+std::vector<std::size_t> verticesOf(const Execution& execution,
+  const std::vector<SurfaceTriangle>& triangles, std::size_t vertexCount)
+{
+  std::vector<std::atomic<bool>> areUsed(vertexCount);
+  forEachIndex(execution, triangles.size(),
+    [&](std::size_t i)
+    {
+      for (const std::size_t vertex : triangles[i])
+      {
+        areUsed[vertex].store(true, std::memory_order_relaxed);
+      }
+    });
+  return markedOf(execution, areUsed);
+}
+
+std::vector<SurfaceTriangle> ordered(
+  const Execution& execution, std::vector<SurfaceTriangle> triangles, std::size_t vertexCount)
+{
+  forEachIndex(execution, triangles.size(),
+    [&triangles](std::size_t i)
+    {
+      SurfaceTriangle& corners = triangles[i];
+      std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    });
+  return sortedUnique(execution, triangles, vertexCount,
+    [](const SurfaceTriangle& triangle) { return static_cast<std::uint64_t>(triangle[0]); });
+}
+
+std::vector<SurfaceTriangle> renumbered(const Execution& execution,
+  const std::vector<SurfaceTriangle>& triangles, const std::vector<std::size_t>& order,
+  std::size_t vertexCount)
+{
+  std::vector<std::size_t> number(vertexCount);
+  forEachIndex(execution, order.size(), [&](std::size_t place) { number[order[place]] = place; });
+  std::vector<SurfaceTriangle> result(triangles.size());
+  forEachIndex(execution, triangles.size(),
+    [&](std::size_t i)
+    {
+      const auto& [a, b, c] = triangles[i];
+      result[i] = { number[a], number[b], number[c] };
+    });
+  return ordered(execution, std::move(result), order.size());
+}
+
+} // namespace isopoint
