@@ -20,7 +20,8 @@ namespace
 
 Failure outOfMemory()
 {
-  return { Failure::OutOfMemory, "Out of memory. Free memory or reduce the number of samples." };
+  return { Failure::OutOfMemory,
+    "Out of memory. Free memory, or reduce the number of samples or of places." };
 }
 
 Failure describe()

@@ -4,6 +4,7 @@
 #include "Input/vtkIsopointBlocks.h"
 #include "Output/vtkIsopointDerivatives.h"
 #include "Output/vtkIsopointPlaces.h"
+#include "Output/vtkIsopointSampleArrays.h"
 #include "Update/vtkIsopointProbing.h"
 #include "Update/vtkIsopointUpdate.h"
 
@@ -44,14 +45,44 @@ int vtkScatteredGradientFilter::RequestData(
   return 1;
 }
 
+std::vector<std::string> vtkScatteredGradientFilter::ListNames() const
+{
+  std::vector<std::string> names;
+  const auto add = [&](vtkTypeBool isWanted, const std::string& name)
+  {
+    if (isWanted)
+    {
+      names.push_back(name);
+    }
+  };
+  add(this->ComputeGradient, this->ResultArrayName);
+  add(this->ComputeDivergence, this->DivergenceArrayName);
+  add(this->ComputeVorticity, this->VorticityArrayName);
+  add(this->ComputeQCriterion, this->QCriterionArrayName);
+  return names;
+}
+
 void vtkScatteredGradientFilter::Compute(vtkInformation* inputInfo, vtkDataObject* output)
 {
+  const std::vector<std::string> names = this->ListNames();
+  vtkCheckIsopointNames(names);
   const vtkIsopointArrayChoice choice(
     this->GetInputArrayInformation(0), vtkIsopointArrayChoice::Tuples);
   std::ostringstream options;
   options << choice.Describe() << " " << this->Interpolation << this->ComputeGradient
           << this->ComputeDivergence << this->ComputeVorticity << this->ComputeQCriterion;
   this->Probing->Load(inputInfo, choice, options.str());
+  vtkDataObject* const input = vtkDataObject::GetData(inputInfo);
+  if (names.empty())
+  {
+    vtkCopyIsopointInput(input, output);
+    return;
+  }
+  const vtkIsopointSampleArray array = this->Probing->FindArray(choice);
+  if (this->ComputeDivergence || this->ComputeVorticity || this->ComputeQCriterion)
+  {
+    vtkCheckIsopointVectors(array.Components);
+  }
 
   const std::vector<vtkIsopointBlock>& blocks = this->Probing->GetBlocks();
   std::vector<isopoint::Vector> places;
@@ -61,7 +92,8 @@ void vtkScatteredGradientFilter::Compute(vtkInformation* inputInfo, vtkDataObjec
   }
   isopoint::ProbeOptions probing;
   probing.method = static_cast<isopoint::PlaceMethod>(this->Interpolation);
-  const vtkSmartPointer<vtkDoubleArray> gradients = this->Probing->FindGradients(places, probing);
+  const vtkSmartPointer<vtkDoubleArray> gradients =
+    this->Probing->FindGradients(array, places, probing);
 
   std::vector<vtkSmartPointer<vtkDoubleArray>> arrays;
   if (this->ComputeGradient)
@@ -81,7 +113,6 @@ void vtkScatteredGradientFilter::Compute(vtkInformation* inputInfo, vtkDataObjec
   derive(this->ComputeVorticity, this->VorticityArrayName, vtkComputeIsopointVorticity);
   derive(this->ComputeQCriterion, this->QCriterionArrayName, vtkComputeIsopointQCriterion);
 
-  vtkDataObject* const input = vtkDataObject::GetData(inputInfo);
   vtkCopyIsopointInput(input, output);
   const std::vector<vtkDataObject*> from = vtkListIsopointLeaves(input);
   const std::vector<vtkDataObject*> to = vtkListIsopointLeaves(output);
@@ -91,9 +122,9 @@ void vtkScatteredGradientFilter::Compute(vtkInformation* inputInfo, vtkDataObjec
     const bool areCells = block.Attributes == from[block.Leaf]->GetAttributes(vtkDataObject::CELL);
     vtkDataSetAttributes* const attributes =
       to[block.Leaf]->GetAttributes(areCells ? vtkDataObject::CELL : vtkDataObject::POINT);
-    for (vtkDoubleArray* const array : arrays)
+    for (vtkDoubleArray* const derivatives : arrays)
     {
-      vtkAddIsopointTuples(array, first, block.GetNumberOfSamples(), -1, attributes);
+      vtkAddIsopointTuples(derivatives, first, block.GetNumberOfSamples(), -1, attributes);
     }
     first += block.GetNumberOfSamples();
   }

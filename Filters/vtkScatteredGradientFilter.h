@@ -12,8 +12,9 @@
  * blocks. The array, chosen by SetInputArrayToProcess() (default: the active scalars of the
  * points), may have any number of components. Which samples are skipped, the guarantees on threads
  * and the kept tree are those of vtkScatteredIsopointFilter. An array gets its gradient from the
- * samples where its numbers are finite; skipped samples get one, too. It is NaN where the position
- * is not finite or no fit holds.
+ * samples where its numbers are finite; skipped samples between these get one, too. It is NaN where
+ * the position is not finite and, with a message, outside of the samples in use or where no fit
+ * holds.
  *
  * The output is a shallow copy of the input; its new arrays are double, and belong to points or
  * cells as the array does. Blocks without the array get none. In a process group (see
@@ -31,6 +32,7 @@
 
 #include <memory> // for std::unique_ptr
 #include <string> // for the names of arrays
+#include <vector> // for a list of these
 
 class vtkIsopointProbing;
 
@@ -90,7 +92,8 @@ public:
 
   ///@{
   /**
-   * The names of the arrays. Arrays of the input with the same name are replaced. Default:
+   * The names of the arrays. Arrays of the input with the same name are replaced. Empty or equal
+   * names and "vtkGhostType" are an error in the next update. Default:
    * "Gradients", "Divergence", "Vorticity", "Q-criterion".
    */
   vtkSetStdStringFromCharMacro(ResultArrayName);
@@ -127,6 +130,7 @@ private:
   void operator=(const vtkScatteredGradientFilter&) = delete;
 
   const isopoint::SampleCounts& GetSampleCounts() const override;
+  std::vector<std::string> ListNames() const;
   void Compute(vtkInformation* inputInfo, vtkDataObject* output);
 };
 

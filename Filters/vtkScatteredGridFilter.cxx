@@ -86,9 +86,13 @@ void vtkScatteredGridFilter::MakePlaces(vtkInformationVector**, vtkInformation* 
   outputInfo->Get(Pipeline::UPDATE_EXTENT(), extent);
   vtkMakeIsopointGrid(bounds, this->SamplingDimensions, whole, extent,
     vtkImageData::SafeDownCast(vtkDataObject::GetData(outputInfo)));
-  // So that the next update does not take missing layers for missing data.
-  outputInfo->Set(Pipeline::WHOLE_EXTENT(), whole, 6);
-  outputInfo->Set(Pipeline::UPDATE_EXTENT(), extent, 6);
+  // Filters downstream and the next update do not take missing layers for missing data. Pieces
+  // remain those of the same extent, which the executive keeps for them.
+  if (outputInfo->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) <= 1)
+  {
+    outputInfo->Set(Pipeline::WHOLE_EXTENT(), whole, 6);
+    outputInfo->Set(Pipeline::UPDATE_EXTENT(), extent, 6);
+  }
 }
 
 void vtkScatteredGridFilter::PrintSelf(ostream& os, vtkIndent indent)

@@ -35,7 +35,8 @@ public:
 
   ///@{
   /**
-   * The number of points along each axis. Numbers below 1 are an error in the next update. Default:
+   * The number of points along each axis. Numbers below 1, and more than
+   * 10^11 points in all, are an error in the next update. Default:
    * 100, 100, 100.
    */
   vtkSetVector3Macro(SamplingDimensions, int);

@@ -35,6 +35,13 @@ int vtkScatteredLineFilter::RequestInformation(
   return 1;
 }
 
+std::set<std::string> vtkScatteredLineFilter::ListOwnArrays() const
+{
+  std::set<std::string> names = this->Superclass::ListOwnArrays();
+  names.insert(vtkIsopointLineLength);
+  return names;
+}
+
 void vtkScatteredLineFilter::MakePlaces(vtkInformationVector**, vtkInformation* outputInfo)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;

@@ -5,7 +5,8 @@
  *
  * vtkScatteredLineFilter is a vtkScatteredProbeFilter whose places are the points of a straight
  * line, for plots. Its only input, the samples, is what the source is there. The output is a
- * vtkPolyData of one polyline. Its array "arc_length" (double) is the distance from the begin.
+ * vtkPolyData of one polyline. Its array "arc_length" (double) is the distance from the begin;
+ * an array of the samples with this name is left out, with a message.
  *
  * If a piece of the output is requested, or in a process group (see SetController()), the line is
  * in the first piece.
@@ -31,7 +32,8 @@ public:
 
   ///@{
   /**
-   * The ends of the line. Default: (0, 0, 0) and (1, 1, 1).
+   * The ends of the line. Numbers that are not finite are an error in the next update. Default: (0,
+   * 0, 0) and (1, 1, 1).
    */
   vtkSetVector3Macro(Point1, double);
   vtkGetVector3Macro(Point1, double);
@@ -60,6 +62,8 @@ protected:
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   void MakePlaces(vtkInformationVector** inputVector, vtkInformation* outputInfo) override;
+
+  std::set<std::string> ListOwnArrays() const override;
 
   double Point1[3] = { 0.0, 0.0, 0.0 };
   double Point2[3] = { 1.0, 1.0, 1.0 };

@@ -55,6 +55,7 @@ int vtkScatteredProbeFilter::FillInputPortInformation(int port, vtkInformation* 
   this->Superclass::FillInputPortInformation(port, info);
   if (port != this->SamplesPort)
   {
+    info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE()); // Set() replaces the first type alone
     info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
     info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
   }
@@ -78,8 +79,15 @@ std::string vtkScatteredProbeFilter::DescribeOptions() const
 {
   std::ostringstream text;
   text << std::hexfloat << this->Interpolation << " " << this->NullPointsStrategy << " "
-       << this->NullValue;
+       << this->NullValue << " " << this->ValidPointsMaskArrayName;
   return text.str();
+}
+
+std::set<std::string> vtkScatteredProbeFilter::ListOwnArrays() const
+{
+  return this->NullPointsStrategy == MASK_POINTS
+           ? std::set<std::string>{ this->ValidPointsMaskArrayName }
+           : std::set<std::string>{};
 }
 
 int vtkScatteredProbeFilter::RequestData(
@@ -127,8 +135,8 @@ void vtkScatteredProbeFilter::FillOutput(vtkDataObject* output)
     options.outsideNumber = this->NullValue;
   }
   std::vector<std::uint8_t> kinds;
-  const std::vector<vtkIsopointProbing::Array> arrays =
-    this->Probing->ProbeAll(places, options, this->MarkBlankPointsAndCells != 0, kinds);
+  const std::vector<vtkIsopointProbing::Array> arrays = this->Probing->ProbeAll(
+    places, options, this->ListOwnArrays(), this->MarkBlankPointsAndCells != 0, kinds);
 
   std::vector<unsigned char> areNull(places.size());
   std::transform(kinds.begin(), kinds.end(), areNull.begin(),

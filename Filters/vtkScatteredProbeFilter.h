@@ -16,9 +16,10 @@
  *
  * The output has the type and the structure of input 0. Arrays of the samples replace those of
  * input 0 with the same name, are double (except with NEAREST), and stay active attributes. Left
- * out are ghost marks, ids and, with a message, arrays that hold no numbers and arrays that not all
- * blocks have with as many components. If input 0 consists of pieces, the output does too: the
- * source is always requested as a whole. The time steps are those of the source.
+ * out are ghost marks, ids and, with a message, arrays that hold no numbers, arrays that not all
+ * blocks have with as many components, and those with the name of an array of the filter itself. If
+ * input 0 consists of pieces, the output does too: the source is always requested as a whole. The
+ * time steps are those of the source or, if it has none, of input 0.
  *
  * In a process group (see SetController()) each rank has its own part of input 0, perhaps none, and
  * the sources of all ranks form one cloud.
@@ -35,6 +36,7 @@
 #include "vtkScatteredIsopointFiltersModule.h" // for the export macro
 
 #include <memory> // for std::unique_ptr
+#include <set>    // for names of arrays
 #include <string> // for the name of an array
 
 class vtkIsopointProbing;
@@ -155,6 +157,11 @@ protected:
    * the samples are loaded. Collective; may throw isopoint::UsageError and std::bad_alloc.
    */
   virtual void MakePlaces(vtkInformationVector** inputVector, vtkInformation* outputInfo);
+
+  /**
+   * The names of the arrays that the filter makes itself. Those of samples do not replace them.
+   */
+  virtual std::set<std::string> ListOwnArrays() const;
 
   /**
    * All options that ranks must share, as a text.

@@ -7,6 +7,8 @@
  * arrays of the samples, straight from scattered samples: vtkCutter for data without cells. The
  * slice is the isosurface of the function's values at the samples in their Delaunay
  * tetrahedralization, as vtkScatteredIsosurfaceFilter extracts it, and ends where the samples end.
+ * Samples on the slice count as above it: without samples below, such as on the first layer of a
+ * lattice, it is empty.
  * docs/triangles.md in the source distribution defines it.
  *
  * Samples are the points of the input, the centers of its cells if it has arrays of cells only, or
@@ -18,11 +20,11 @@
  * side. Triangles face against the function's gradient.
  *
  * Arrays keep their types; integers are rounded. Strings and pedigree ids are those of the nearer
- * end of the edge; global ids are left out, and arrays that not all blocks have. A function must
- * have a finite value everywhere.
+ * end of the edge; global ids are left out and, with a message, arrays that not all blocks have. A
+ * function that is not finite at a sample with a finite position is an error.
  *
- * Moving a plane along its normal keeps the tree and all values, which makes the next slice several
- * times faster; other changes of the function keep the tree.
+ * Moving a plane along its normal keeps the tree and all values: the next slice takes two thirds of
+ * the time of the first with LINEAR, 0.8 with FITS. Other changes of the function keep the tree.
  *
  * @sa
  * vtkScatteredIsosurfaceFilter vtkScatteredProbeFilter vtkCutter

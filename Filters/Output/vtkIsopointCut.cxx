@@ -4,8 +4,10 @@
 #include "Common/vtkIsopointArrays.h"
 #include "Core/Base/Execution.h"
 #include "Core/Base/Lists.h"
+#include "Core/Failure.h"
 #include "Core/OutputArrays.h"
 #include "Input/vtkIsopointNumbers.h"
+#include "Output/vtkIsopointOutputArrays.h"
 
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
@@ -29,6 +31,24 @@ vtkIsopointCut::vtkIsopointCut(vtkImplicitFunction* function)
     function->EvaluateGradient(zero, this->Normal.data());
     this->Level = -function->EvaluateFunction(zero);
     this->AreOfNormal = true;
+  }
+}
+
+void vtkIsopointCut::Check() const
+{
+  if (!this->AreOfNormal)
+  {
+    return;
+  }
+  const double length = std::hypot(this->Normal[0], this->Normal[1], this->Normal[2]);
+  if (length == 0.0)
+  {
+    throw isopoint::UsageError("The normal of the plane is zero. Set a direction.");
+  }
+  if (!std::isfinite(length) || !std::isfinite(this->Level))
+  {
+    throw isopoint::UsageError(
+      "The normal or the origin of the plane is not finite. Set finite numbers.");
   }
 }
 
@@ -66,9 +86,14 @@ vtkSmartPointer<vtkDoubleArray> vtkIsopointCut::FindValues(
     numbers[i] = this->Evaluate(position);
   };
   const auto count = static_cast<std::size_t>(block.GetNumberOfSamples());
-  // Functions of VTK may not be for several threads.
-  this->AreOfNormal ? isopoint::forEachIndex(execution, count, evaluate)
-                    : isopoint::forEachInOrder(execution, count, evaluate);
+  if (this->AreOfNormal)
+  {
+    isopoint::forEachIndex(execution, count, evaluate);
+  }
+  else
+  {
+    isopoint::forEachInOrder(execution, count, evaluate); // VTK's functions may not be for threads
+  }
   return values;
 }
 
@@ -109,13 +134,11 @@ double shareToZero(const Function& function, double begin, double end)
 
 void moveTuple(double share, vtkDataArray* from, vtkIdType sample, vtkDataArray* to, vtkIdType i)
 {
-  const int type = to->GetDataType();
-  const bool areIntegers = type != VTK_FLOAT && type != VTK_DOUBLE;
   for (int component = 0; component < to->GetNumberOfComponents(); ++component)
   {
     const double moved = (1.0 - share) * to->GetComponent(i, component) +
                          share * from->GetComponent(sample, component);
-    to->SetComponent(i, component, areIntegers ? std::round(moved) : moved);
+    vtkSetIsopointNumber(to, i, component, moved);
   }
 }
 

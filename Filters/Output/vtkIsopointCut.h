@@ -35,6 +35,9 @@ public:
   /// Cuts of equal states have equal values.
   vtkIsopointInputState GetState() const;
 
+  /// @throws isopoint::UsageError if a plane has no direction or its numbers are not finite
+  void Check() const;
+
   /// The values at the samples of a block. Throws as loops of isopoint::Execution.
   vtkSmartPointer<vtkDoubleArray> FindValues(
     const isopoint::Execution& execution, const vtkIsopointBlock& block) const;

@@ -4,9 +4,10 @@
 #include "Common/vtkIsopointArrays.h"
 #include "Core/Failure.h"
 
+#include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 
-#include <string>
+#include <algorithm>
 
 namespace
 {
@@ -17,14 +18,6 @@ vtkSmartPointer<vtkDoubleArray> derived(
   vtkDoubleArray* gradients, int components, const Compute& compute)
 {
   constexpr int ofVectors = 9;
-  const int count = gradients->GetNumberOfComponents();
-  if (count != ofVectors)
-  {
-    throw isopoint::UsageError(
-      "Divergence, vorticity and Q-criterion need vectors, but the array has " +
-      std::to_string(count / 3) + (count == 3 ? " component" : " components") +
-      ". Choose an array with three components, or compute the gradient alone.");
-  }
   auto result = vtkSmartPointer<vtkDoubleArray>::New();
   result->SetNumberOfComponents(components);
   vtkAllocateTuples(result, gradients->GetNumberOfTuples());
@@ -36,6 +29,31 @@ vtkSmartPointer<vtkDoubleArray> derived(
 }
 
 } // namespace
+
+void vtkCheckIsopointNames(const std::vector<std::string>& names)
+{
+  for (auto name = names.begin(); name != names.end(); ++name)
+  {
+    if (name->empty() || *name == vtkDataSetAttributes::GhostArrayName() ||
+        std::find(names.begin(), name, *name) != name)
+    {
+      throw isopoint::UsageError(
+        "A computed array cannot have the name \"" + *name +
+        "\": empty, that of ghost marks, or that of another one. Set another name.");
+    }
+  }
+}
+
+void vtkCheckIsopointVectors(int components)
+{
+  if (components != 3)
+  {
+    throw isopoint::UsageError(
+      "Divergence, vorticity and Q-criterion need vectors, but the array has " +
+      std::to_string(components) + (components == 1 ? " component" : " components") +
+      ". Choose an array with three components, or compute the gradient alone.");
+  }
+}
 
 vtkSmartPointer<vtkDoubleArray> vtkComputeIsopointDivergence(vtkDoubleArray* gradients)
 {

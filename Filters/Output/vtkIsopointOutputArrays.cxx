@@ -5,6 +5,7 @@
 #include "Core/Options.h"
 #include "Core/OutputArrays.h"
 
+#include "vtkAOSDataArrayTemplate.h"
 #include "vtkAbstractArray.h"
 #include "vtkArrayDispatch.h"
 #include "vtkCellData.h"
@@ -15,10 +16,14 @@
 #include "vtkInformationIntegerKey.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkSetGet.h"
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkVariant.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -61,7 +66,7 @@ void interpolateArray(const isopoint::Execution& execution, const Isosurface& su
     [&](std::uint64_t sample, int component)
     { return input->GetComponent(static_cast<vtkIdType>(sample), component); },
     [&](std::size_t i, int component, double value)
-    { output->SetComponent(firstTuple + static_cast<vtkIdType>(i), component, value); });
+    { vtkSetIsopointNumber(output, firstTuple + static_cast<vtkIdType>(i), component, value); });
 }
 
 /// Copies the tuples of the nearer ends.
@@ -135,6 +140,28 @@ void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkDataS
       firstTuple += static_cast<vtkIdType>(surface.size());
     }
     vtkAddAttribute(attribute, result, output);
+  }
+}
+
+void vtkSetIsopointNumber(vtkDataArray* array, vtkIdType tuple, int component, double number)
+{
+  switch (array->GetDataType())
+  {
+    // Not by SetComponent(), whose conversion from double overflows at the ends of 64-bit types.
+    vtkTemplateMacro({
+      const auto value = isopoint::toArrayType<VTK_TT>(number);
+      if (auto* const typed = vtkAOSDataArrayTemplate<VTK_TT>::FastDownCast(array))
+      {
+        typed->SetTypedComponent(tuple, component, value);
+      }
+      else
+      {
+        array->SetVariantValue(
+          tuple * array->GetNumberOfComponents() + component, vtkVariant(value));
+      }
+    });
+    default: // bits
+      array->SetComponent(tuple, component, std::clamp(std::round(number), 0.0, 1.0));
   }
 }
 

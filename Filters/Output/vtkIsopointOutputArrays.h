@@ -4,6 +4,8 @@
 
 #include "Core/ExtractionRequest.h"
 
+#include "vtkType.h"
+
 #include <string>
 #include <vector>
 
@@ -17,8 +19,8 @@ class vtkDataSetAttributes;
 class vtkPointData;
 class vtkPolyData;
 
-// Each function adds arrays for the isopoints of all surfaces, one surface after the other, and
-// throws std::bad_alloc.
+// Functions that add arrays do so for the isopoints of all surfaces, one surface after the other,
+// and throw std::bad_alloc.
 
 /// Interpolates the input's arrays. Integers are rounded to the nearest; pedigree ids and strings
 /// are copied from the nearer end. Active attributes remain active. Global ids, ghost arrays,
@@ -26,6 +28,9 @@ class vtkPolyData;
 void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkDataSetAttributes* input,
   vtkDataArray* contoured, const std::vector<isopoint::ExtractedIsosurface>& surfaces,
   vtkPointData* output);
+
+/// Sets a number of an array, in the array's type as isopoint::toArrayType() converts it.
+void vtkSetIsopointNumber(vtkDataArray* array, vtkIdType tuple, int component, double number);
 
 /// Adds the contoured array, filled with isovalues, as active scalars: float as the input's, else
 /// double.

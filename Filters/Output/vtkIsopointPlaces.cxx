@@ -3,6 +3,7 @@
 
 #include "Common/vtkIsopointArrays.h"
 #include "Core/Failure.h"
+#include "Input/vtkIsopointNumbers.h"
 #include "Output/vtkIsopointOutput.h"
 
 #include "vtkCellArray.h"
@@ -112,14 +113,30 @@ void vtkCopyIsopointInput(vtkDataObject* input, vtkDataObject* output)
   output->GetFieldData()->PassData(input->GetFieldData());
 }
 
+void vtkAppendIsopointPlaces(vtkDataSet* data, std::vector<isopoint::Vector>& places)
+{
+  const vtkIsopointPositions positions(data);
+  const auto first = places.size();
+  places.resize(first + static_cast<std::size_t>(data->GetNumberOfPoints()));
+  for (std::size_t i = first; i < places.size(); ++i)
+  {
+    positions(i - first, places[i].data());
+  }
+}
+
 void vtkMakeIsopointLine(
   const double begin[3], const double end[3], vtkIdType count, vtkPolyData* output)
 {
+  const auto isFinite = [](double x) { return std::isfinite(x); };
+  if (!std::all_of(begin, begin + 3, isFinite) || !std::all_of(end, end + 3, isFinite))
+  {
+    throw isopoint::UsageError("The ends of the line are not finite. Set finite numbers.");
+  }
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   vtkAllocateTuples(points->GetData(), count);
   vtkNew<vtkDoubleArray> lengths;
-  lengths->SetName("arc_length");
+  lengths->SetName(vtkIsopointLineLength);
   vtkAllocateTuples(lengths, count);
   const double length = std::hypot(end[0] - begin[0], end[1] - begin[1], end[2] - begin[2]);
   for (vtkIdType i = 0; i < count; ++i)
@@ -174,6 +191,14 @@ void vtkMakeIsopointGrid(const double bounds[6], const int dimensions[3], int wh
     // The extent of no points, for any axis.
     constexpr int none[] = { 0, -1, 0, -1, 0, -1 };
     std::copy_n(none, 6, extent);
+  }
+  constexpr double mostPoints = 1e11; // whose positions take terabytes
+  const double points =
+    (1.0 + extent[1] - extent[0]) * (1.0 + extent[3] - extent[2]) * (1.0 + extent[5] - extent[4]);
+  if (points > mostPoints)
+  {
+    throw isopoint::UsageError(
+      "The image has too many points for any memory. Reduce the sampling dimensions.");
   }
   output->SetOrigin(origin);
   output->SetSpacing(spacing);

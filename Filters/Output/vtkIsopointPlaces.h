@@ -2,9 +2,12 @@
 #ifndef vtkIsopointPlaces_h
 #define vtkIsopointPlaces_h
 
+#include "Core/Base/Vector.h"
+
 #include "vtkType.h"
 
 #include <string>
+#include <vector>
 
 class vtkDataArray;
 class vtkDataObject;
@@ -29,9 +32,15 @@ void vtkCopyIsopointPlaces(
 /// Makes an empty output of the input's type a shallow copy of it, leaf by leaf.
 void vtkCopyIsopointInput(vtkDataObject* input, vtkDataObject* output);
 
+/// The positions of the points of a data set, after those in the list.
+void vtkAppendIsopointPlaces(vtkDataSet* data, std::vector<isopoint::Vector>& places);
+
+/// The array of lines with the distance from their begin.
+constexpr const char* vtkIsopointLineLength = "arc_length";
+
 /// Makes a polyline of `count` points, none or at least two, at equal distances, with the array
-/// "arc_length", the distance from its begin.
-/// @throws std::bad_alloc
+/// vtkIsopointLineLength.
+/// @throws isopoint::UsageError unless its ends are finite; std::bad_alloc
 void vtkMakeIsopointLine(
   const double begin[3], const double end[3], vtkIdType count, vtkPolyData* output);
 
@@ -40,7 +49,8 @@ void vtkMakeIsopointLine(
 /// @param dimensions numbers of points of the whole image
 /// @param whole extent of the whole image; axes without length are reduced to one layer
 /// @param extent to make; likewise
-/// @throws isopoint::UsageError unless bounds ascend and dimensions are positive
+/// @throws isopoint::UsageError unless bounds ascend, dimensions are positive, and memory could
+/// hold the points
 void vtkMakeIsopointGrid(const double bounds[6], const int dimensions[3], int whole[6],
   int extent[6], vtkImageData* output);
 

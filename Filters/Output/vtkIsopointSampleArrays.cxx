@@ -6,6 +6,7 @@
 #include "Core/Contour.h"
 #include "Core/Ranks/ByteBuffer.h"
 #include "Input/vtkIsopointNumbers.h"
+#include "Output/vtkIsopointOutputArrays.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
@@ -149,6 +150,17 @@ std::vector<vtkIsopointSampleArray> vtkListIsopointArrays(isopoint::ProcessGroup
   return found;
 }
 
+isopoint::Message vtkDescribeLeftOut(const std::set<std::string>& names, const std::string& rule)
+{
+  std::string quoted;
+  for (const std::string& name : names)
+  {
+    quoted += (quoted.empty() ? "\"" : ", \"") + name + "\"";
+  }
+  return { "left out " + quoted, "Left out of the output: " + quoted + ". " + rule,
+    isopoint::Message::Note };
+}
+
 void vtkReadIsopointArray(const vtkIsopointSampleArray& array,
   const std::vector<vtkIsopointBlock>& blocks, isopoint::ProbedArray& probed)
 {
@@ -169,13 +181,16 @@ void vtkReadIsopointArray(const vtkIsopointSampleArray& array,
 namespace
 {
 
-/// A number that an array can hold; 0 for integers that cannot hold it.
+/// A number that an array can hold, without a fraction for integers, which get 0 if they cannot.
 double heldBy(vtkDataArray* array, double number)
 {
   const int type = array->GetDataType();
-  const bool isHeld = type == VTK_FLOAT || type == VTK_DOUBLE ||
-                      (number >= array->GetDataTypeMin() && number <= array->GetDataTypeMax());
-  return isHeld ? number : 0.0;
+  if (type == VTK_FLOAT || type == VTK_DOUBLE)
+  {
+    return number;
+  }
+  const bool isHeld = number >= array->GetDataTypeMin() && number <= array->GetDataTypeMax();
+  return isHeld ? std::trunc(number) : 0.0;
 }
 
 } // namespace
@@ -217,7 +232,7 @@ vtkIsopointProbedArray::vtkIsopointProbedArray(const vtkIsopointSampleArray& arr
     }
     for (int component = 0; component < result->GetNumberOfComponents(); ++component)
     {
-      result->SetComponent(to, component, nothing);
+      vtkSetIsopointNumber(result, to, component, nothing);
     }
   };
 }
@@ -238,8 +253,8 @@ vtkSmartPointer<vtkDataArray> vtkIsopointProbedArray::Finish()
   {
     for (int component = 0; component < converted->GetNumberOfComponents(); ++component)
     {
-      converted->SetComponent(
-        i, component, heldBy(converted, this->Result->GetComponent(i, component)));
+      vtkSetIsopointNumber(
+        converted, i, component, heldBy(converted, this->Result->GetComponent(i, component)));
     }
   }
   return converted;
@@ -247,10 +262,6 @@ vtkSmartPointer<vtkDataArray> vtkIsopointProbedArray::Finish()
 
 void vtkReplaceIsopointNumbers(vtkDataArray* found, vtkDataArray* array)
 {
-  const int type = array->GetDataType();
-  const bool areIntegers = type != VTK_FLOAT && type != VTK_DOUBLE;
-  const double least = array->GetDataTypeMin();
-  const double greatest = array->GetDataTypeMax();
   for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
   {
     for (int component = 0; component < array->GetNumberOfComponents(); ++component)
@@ -258,8 +269,7 @@ void vtkReplaceIsopointNumbers(vtkDataArray* found, vtkDataArray* array)
       const double number = found->GetComponent(i, component);
       if (std::isfinite(number))
       {
-        array->SetComponent(
-          i, component, areIntegers ? std::clamp(std::round(number), least, greatest) : number);
+        vtkSetIsopointNumber(array, i, component, number);
       }
     }
   }

@@ -3,6 +3,7 @@
 #define vtkIsopointSampleArrays_h
 
 #include "Core/Places/ProbeRequest.h"
+#include "Core/Report.h"
 #include "Input/vtkIsopointBlocks.h"
 
 #include "vtkSmartPointer.h"
@@ -35,6 +36,10 @@ struct vtkIsopointSampleArray
 /// @throws what isopoint::ProcessGroup throws
 std::vector<vtkIsopointSampleArray> vtkListIsopointArrays(isopoint::ProcessGroup& processes,
   const std::vector<vtkIsopointBlock>& blocks, std::set<std::string>& dropped);
+
+/// The note that arrays are left out of the output.
+/// @param rule which arrays are not
+isopoint::Message vtkDescribeLeftOut(const std::set<std::string>& names, const std::string& rule);
 
 /// Memory for an array at places: double, or for PlaceMethod::Nearest the type of the array.
 class vtkIsopointProbedArray

@@ -123,14 +123,17 @@ void vtkIsopointProbing::Probe(const std::vector<isopoint::Vector>& places,
 
 std::vector<vtkIsopointProbing::Array> vtkIsopointProbing::ProbeAll(
   const std::vector<isopoint::Vector>& places, const isopoint::ProbeOptions& options,
-  bool isOutsideHidden, std::vector<std::uint8_t>& kinds)
+  const std::set<std::string>& own, bool isOutsideHidden, std::vector<std::uint8_t>& kinds)
 {
   this->Counts.IsOutsideLost =
     isOutsideHidden || options.outside == isopoint::OutsideStrategy::Number;
   isopoint::ProcessGroup& processes = this->Update.GetProcesses();
-  const std::vector<vtkIsopointSampleArray> arrays =
+  std::vector<vtkIsopointSampleArray> arrays =
     vtkListIsopointArrays(processes, this->GetBlocks(), this->Counts.Dropped);
   this->Counts.HasArrays = !arrays.empty();
+  const auto isOwn = [&](const vtkIsopointSampleArray& array)
+  { return own.count(array.Name) > 0 && this->Counts.Own.insert(array.Name).second; };
+  arrays.erase(std::remove_if(arrays.begin(), arrays.end(), isOwn), arrays.end());
   std::vector<vtkIsopointProbedArray> results;
   std::vector<isopoint::ProbedArray> probed;
   for (const vtkIsopointSampleArray& array : arrays)
@@ -148,34 +151,62 @@ std::vector<vtkIsopointProbing::Array> vtkIsopointProbing::ProbeAll(
   return found;
 }
 
-vtkSmartPointer<vtkDoubleArray> vtkIsopointProbing::FindGradients(
-  const std::vector<isopoint::Vector>& places, const isopoint::ProbeOptions& options)
+vtkIsopointSampleArray vtkIsopointProbing::FindArray(const vtkIsopointArrayChoice& choice)
 {
-  const std::string& name = this->Counts.Samples.array;
-  std::set<std::string> others;
-  const std::vector<vtkIsopointSampleArray> all =
-    vtkListIsopointArrays(this->Update.GetProcesses(), this->GetBlocks(), others);
-  const auto array = std::find_if(
-    all.begin(), all.end(), [&](const vtkIsopointSampleArray& each) { return each.Name == name; });
-  if (array == all.end())
+  vtkIsopointSampleArray found;
+  found.Name = this->Counts.Samples.array;
+  found.AreIntegers = true;
+  std::uint64_t least = std::numeric_limits<int>::max();
+  std::uint64_t most = 0;
+  for (const vtkIsopointBlock& block : this->GetBlocks())
+  {
+    auto* const part = vtkDataArray::SafeDownCast(choice.Find(block.Attributes));
+    const int type = part->GetDataType();
+    found.AreIntegers = found.AreIntegers && type != VTK_FLOAT && type != VTK_DOUBLE;
+    found.Parts.push_back(part);
+    least = std::min(least, static_cast<std::uint64_t>(part->GetNumberOfComponents()));
+    most = std::max(most, static_cast<std::uint64_t>(part->GetNumberOfComponents()));
+  }
+  isopoint::ProcessGroup& processes = this->Update.GetProcesses();
+  most = processes.maximum(most);
+  least = ~processes.maximum(~least);
+  found.AreIntegers = !processes.isAny(!found.AreIntegers);
+  if (least != most)
   {
     throw isopoint::UsageError(
-      "The array \"" + name +
-      "\" has different numbers of components in the blocks of the input, or"
-      " no name. Choose another one.");
+      "The array \"" + found.Name +
+      "\" has different numbers of components in the blocks of the input. Choose another one.");
   }
+  found.Components = static_cast<int>(most);
+  return found;
+}
+
+vtkSmartPointer<vtkDoubleArray> vtkIsopointProbing::FindGradients(
+  const vtkIsopointSampleArray& array, const std::vector<isopoint::Vector>& places,
+  const isopoint::ProbeOptions& options)
+{
   isopoint::ProbedArray probed;
-  vtkReadIsopointArray(*array, this->GetBlocks(), probed);
-  const auto components = static_cast<std::size_t>(array->Components);
+  vtkReadIsopointArray(array, this->GetBlocks(), probed);
+  const auto components = static_cast<std::size_t>(array.Components);
   std::vector<double> values(components * places.size());
   auto gradients = vtkSmartPointer<vtkDoubleArray>::New();
-  gradients->SetNumberOfComponents(3 * array->Components);
+  gradients->SetNumberOfComponents(3 * array.Components);
   vtkAllocateTuples(gradients, static_cast<vtkIdType>(places.size()));
   probed.values = values.data();
   probed.gradients = gradients->GetPointer(0);
   std::vector<std::uint8_t> kinds;
   this->Probe(places, options, { probed }, kinds);
   this->Counts.AreGradients = true;
+  const auto isFinite = [](double number) { return std::isfinite(number); };
+  std::uint64_t without = 0;
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    const double* const gradient = probed.gradients + 3 * components * i;
+    without += std::all_of(places[i].begin(), places[i].end(), isFinite) &&
+               std::any_of(gradient, gradient + 3 * components,
+                 [](double derivative) { return std::isnan(derivative); });
+  }
+  this->Counts.WithoutGradient = this->Update.GetProcesses().sum(without);
   return gradients;
 }
 
@@ -186,7 +217,8 @@ std::vector<isopoint::Message> vtkIsopointProbing::Describe() const
   std::vector<Message> messages;
   const Message skipped = isopoint::describeSkipped(counts.Samples,
     "There are no values. Connect samples with finite positions.",
-    "Values there are those of the samples around.");
+    counts.AreGradients ? "Gradients are those of the other samples."
+                        : "Values there are those of the samples around.");
   if (!skipped.text.empty())
   {
     messages.push_back(skipped);
@@ -213,28 +245,23 @@ std::vector<isopoint::Message> vtkIsopointProbing::Describe() const
                              : "values are those at the nearest point of it."),
       Message::Note });
   }
+  if (counts.WithoutGradient > 0)
+  {
+    messages.push_back({ "no gradient",
+      std::to_string(counts.WithoutGradient) + places +
+        "have no gradient: no samples around are in use and have finite values. Choose another"
+        " array, or show hidden samples.",
+      counts.WithoutGradient == counts.Places ? Message::Warning : Message::Note });
+  }
+  if (!counts.Own.empty())
+  {
+    messages.push_back(vtkDescribeLeftOut(counts.Own,
+      "The output has an array of its own with this name. Rename that of the samples."));
+  }
   if (!counts.Dropped.empty())
   {
-    std::string names;
-    for (const std::string& name : counts.Dropped)
-    {
-      names += (names.empty() ? "\"" : ", \"") + name + "\"";
-    }
-    messages.push_back({ "left out " + names,
-      "Left out of the output: " + names +
-        ". Only arrays of numbers are interpolated that all blocks have, with the same components.",
-      Message::Note });
+    messages.push_back(vtkDescribeLeftOut(counts.Dropped,
+      "Only arrays of numbers are interpolated that all blocks have, with the same components."));
   }
   return messages;
-}
-
-void vtkAppendIsopointPlaces(vtkDataSet* data, std::vector<isopoint::Vector>& places)
-{
-  const vtkIsopointPositions positions(data);
-  const auto first = places.size();
-  places.resize(first + static_cast<std::size_t>(data->GetNumberOfPoints()));
-  for (std::size_t i = first; i < places.size(); ++i)
-  {
-    positions(i - first, places[i].data());
-  }
 }

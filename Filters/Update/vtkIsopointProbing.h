@@ -23,6 +23,7 @@ class vtkInformation;
 class vtkIsopointArrayChoice;
 class vtkIsopointUpdate;
 struct vtkIsopointBlock;
+struct vtkIsopointSampleArray;
 struct vtkIsopointCloud;
 
 /// Interpolates arrays of samples at places, in the updates of a filter.
@@ -55,6 +56,7 @@ public:
   void FindBounds(double bounds[6]) const;
 
   /// Interpolates all arrays of the samples. Counts places, arrays left out, and places outside.
+  /// @param own names of arrays that the filter makes itself; those of samples are left out
   /// @param isOutsideHidden whether places outside will be hidden
   /// @param kinds receives isopoint::PlaceKinds of each place
   /// @returns arrays with a tuple for each place; active attributes are listed beside them
@@ -64,12 +66,16 @@ public:
     int Attribute; // a vtkDataSetAttributes::AttributeTypes, or -1
   };
   std::vector<Array> ProbeAll(const std::vector<isopoint::Vector>& places,
-    const isopoint::ProbeOptions& options, bool isOutsideHidden, std::vector<std::uint8_t>& kinds);
+    const isopoint::ProbeOptions& options, const std::set<std::string>& own, bool isOutsideHidden,
+    std::vector<std::uint8_t>& kinds);
 
-  /// The gradients of the chosen array at places: for each of its components the derivatives by x,
-  /// y and z. NaN where there is none.
-  /// @throws isopoint::UsageError if blocks have different arrays
-  vtkSmartPointer<vtkDoubleArray> FindGradients(
+  /// The chosen array of the samples, perhaps without a name.
+  /// @throws isopoint::UsageError if blocks have different numbers of components
+  vtkIsopointSampleArray FindArray(const vtkIsopointArrayChoice& choice);
+
+  /// The gradients of an array at places: for each of its components the derivatives by x, y and z.
+  /// NaN where there is none. Counts places without.
+  vtkSmartPointer<vtkDoubleArray> FindGradients(const vtkIsopointSampleArray& array,
     const std::vector<isopoint::Vector>& places, const isopoint::ProbeOptions& options);
 
 private:
@@ -82,7 +88,9 @@ private:
     bool HasArrays = true;
     bool IsOutsideLost = false; // whether places outside get no values, or are hidden
     bool AreGradients = false;
-    std::set<std::string> Dropped; // arrays
+    std::uint64_t WithoutGradient = 0; // places that are finite
+    std::set<std::string> Own;         // arrays of samples, replaced by the filter's
+    std::set<std::string> Dropped;     // arrays
   };
   void Probe(const std::vector<isopoint::Vector>& places, const isopoint::ProbeOptions& options,
     const std::vector<isopoint::ProbedArray>& arrays, std::vector<std::uint8_t>& kinds);
@@ -95,8 +103,5 @@ private:
   vtkIsopointCloud* Cloud = nullptr;
   double Loaded = 0.0; // share of the progress
 };
-
-/// The positions of the points of a data set, after those in the list.
-void vtkAppendIsopointPlaces(vtkDataSet* data, std::vector<isopoint::Vector>& places);
 
 #endif

@@ -29,6 +29,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <set>
 #include <sstream>
 #include <string>
@@ -73,6 +74,43 @@ vtkSmartPointer<vtkPointData> withPositions(const vtkIsopointBlock& block)
   return attributes;
 }
 
+/// Whether no sample is beyond a slice, up to rounding: as by a box in the bounds of the samples.
+bool isOutermost(const isopoint::Report& report)
+{
+  constexpr double rounding = 1e-9;
+  const double near = report.greatest - rounding * (report.greatest - report.least);
+  return std::any_of(report.isovalues.begin(), report.isovalues.end(),
+    [&](double value) { return value >= near && value <= report.greatest; });
+}
+
+/// Why a slice is empty, and the remedy.
+std::string whyEmpty(const isopoint::Report& report, isopoint::OptionNaming naming)
+{
+  const auto isAny = [&](auto is)
+  { return std::any_of(report.isovalues.begin(), report.isovalues.end(), is); };
+  if (report.isovalues.empty())
+  {
+    return "there are no offsets. Set one, such as 0.";
+  }
+  if (report.least == report.greatest)
+  {
+    return "the cut function is the same at all samples. Choose one that has samples on both sides.";
+  }
+  if (isOutermost(report))
+  {
+    return "no sample is beyond it. Move it among the samples; make a box or a sphere smaller.";
+  }
+  if (isAny([&](double value) { return value > report.least && value <= report.greatest; }))
+  {
+    return report.droppedInGaps > 0 ? "all of it is in gaps between samples. Turn " +
+                                        naming(isopoint::option::dropGaps.name) + " off."
+                                    : "the samples are in one plane, or fewer than four.";
+  }
+  return isAny([&](double value) { return value == report.least; })
+           ? "samples on it count as above it, and none are below. Move it among the samples."
+           : "all samples are on one side of it. Move it among the samples.";
+}
+
 } // namespace
 
 vtkIsopointSlicing::vtkIsopointSlicing(vtkIsopointUpdate& update)
@@ -86,6 +124,7 @@ void vtkIsopointSlicing::Run(
   const Options& options, vtkInformation* inputInfo, vtkInformation* outputInfo)
 {
   this->Report = isopoint::Report();
+  this->Dropped.clear();
   const bool isDone = this->Update.Run(
     vtkDataObject::GetData(outputInfo), [&]() { this->Slice(options, inputInfo, outputInfo); },
     [this](isopoint::OptionNaming naming) { return this->Describe(naming); });
@@ -108,6 +147,7 @@ void vtkIsopointSlicing::Slice(
     throw isopoint::UsageError("There is no cut function. Set a plane or another one.");
   }
   const vtkIsopointCut cut(options.Function);
+  cut.Check();
   isopoint::checkOptions(options.Core);
   this->Update.CheckOptionsOnRanks(textOf(options, cut), "slice");
   const int ghostLevels = this->Update.GetGhostLevels(outputInfo);
@@ -135,6 +175,38 @@ void vtkIsopointSlicing::Slice(
   this->Report.isPieceOfProcess = this->Update.TakePiece(outputInfo, output);
 }
 
+/// @throws isopoint::UsageError if the function is not finite at a sample with a finite position
+void vtkIsopointSlicing::CheckValues(const vtkIsopointCloud& cloud) const
+{
+  std::uint64_t lacking = 0;
+  std::uint64_t all = 0;
+  for (std::size_t block = 0; block < cloud.Blocks.size(); ++block)
+  {
+    const vtkIsopointPositions positions(cloud.Blocks[block].Positions);
+    const double* const values = this->Values[block]->GetPointer(0);
+    const auto count = static_cast<std::size_t>(cloud.Blocks[block].GetNumberOfSamples());
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      isopoint::Vector position;
+      if (!std::isfinite(values[i]))
+      {
+        positions(i, position.data());
+        lacking +=
+          std::all_of(position.begin(), position.end(), [](double x) { return std::isfinite(x); });
+      }
+    }
+    all += count;
+  }
+  lacking = this->Update.GetProcesses().sum(lacking);
+  all = this->Update.GetProcesses().sum(all);
+  if (lacking > 0)
+  {
+    throw isopoint::UsageError("The cut function is not finite at " + std::to_string(lacking) +
+                               " of " + std::to_string(all) +
+                               " samples. Choose one that is finite everywhere.");
+  }
+}
+
 vtkIsopointCloud& vtkIsopointSlicing::Load(const vtkIsopointCut& cut, vtkInformation* inputInfo)
 {
   this->Update.CollectBlocks(inputInfo, vtkIsopointArrayChoice());
@@ -154,6 +226,7 @@ vtkIsopointCloud& vtkIsopointSlicing::Load(const vtkIsopointCut& cut, vtkInforma
     }
     this->ValuesOf = cloud.State;
   }
+  this->CheckValues(cloud);
   for (std::size_t i = 0; i < cloud.Blocks.size(); ++i)
   {
     cloud.Blocks[i].Scalars = this->Values[i];
@@ -189,6 +262,10 @@ void vtkIsopointSlicing::FillOutput(const Options& options, const vtkIsopointCut
     output->GetPointData()->RemoveArray(positionsName);
     cut.MovePoints(execution, surfaces, samples.GetAttributes(), positionsName, output);
   }
+  std::set<std::string> others;
+  vtkListIsopointArrays(this->Update.GetProcesses(), cloud.Blocks, others);
+  std::copy_if(others.begin(), others.end(), std::inserter(this->Dropped, this->Dropped.end()),
+    [&](const std::string& name) { return !output->GetPointData()->HasArray(name.c_str()); });
   if (options.AreFits)
   {
     this->Fit(cloud, output);
@@ -248,15 +325,19 @@ std::vector<isopoint::Message> vtkIsopointSlicing::Describe(isopoint::OptionNami
   }
   if (report.pointCount() == 0 && report.least <= report.greatest)
   {
-    const bool isInside = std::any_of(report.isovalues.begin(), report.isovalues.end(),
-      [&](double value) { return value > report.least && value <= report.greatest; });
-    messages.push_back({ "empty slice",
-      "The slice is empty: " +
-        (!isInside ? std::string("all samples are on one side of it. Move it among the samples.")
-          : report.droppedInGaps > 0
-            ? "all of it is in gaps between samples. Turn " +
-                naming(isopoint::option::dropGaps.name) + " off."
-            : std::string("the samples are in one plane, or fewer than four.")) });
+    messages.push_back({ "empty slice", "The slice is empty: " + whyEmpty(report, naming) });
+  }
+  if (report.pointCount() > 0 && isOutermost(report))
+  {
+    messages.push_back({ "outermost slice",
+      "The slice is only where samples are on it, as no sample is beyond it. Move it among the"
+      " samples; make a box or a sphere smaller.",
+      isopoint::Message::Note });
+  }
+  if (!this->Dropped.empty())
+  {
+    messages.push_back(vtkDescribeLeftOut(
+      this->Dropped, "Only arrays are kept that all blocks have, with the same components."));
   }
   if (report.isPieceOfProcess)
   {

@@ -9,6 +9,8 @@
 
 #include "vtkSmartPointer.h"
 
+#include <set>
+#include <string>
 #include <vector>
 
 class vtkDoubleArray;
@@ -45,6 +47,7 @@ public:
 
 private:
   void Slice(const Options& options, vtkInformation* inputInfo, vtkInformation* outputInfo);
+  void CheckValues(const vtkIsopointCloud& cloud) const;
   vtkIsopointCloud& Load(const vtkIsopointCut& cut, vtkInformation* inputInfo);
   void FillOutput(const Options& options, const vtkIsopointCut& cut, vtkIsopointCloud& cloud,
     std::vector<isopoint::ExtractedIsosurface>& surfaces, vtkPolyData* output);
@@ -53,6 +56,7 @@ private:
 
   vtkIsopointUpdate& Update;
   isopoint::Report Report;
+  std::set<std::string> Dropped; // arrays
 
   // Of the function at the samples, by block; kept with the tree.
   std::vector<vtkSmartPointer<vtkDoubleArray>> Values;

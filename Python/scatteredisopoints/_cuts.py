@@ -78,7 +78,7 @@ def evaluator(function: Any) -> Callable[[np.ndarray], np.ndarray]:
     return values
 
 
-def make_cut(normal: Normal, origin: Any, function: Any, center: Callable[[], np.ndarray]) -> tuple[Cut, float]:
+def make_cut(normal: Optional[Normal], origin: Any, function: Any, center: Callable[[], np.ndarray]) -> tuple[Cut, float]:
     """What slices, and the level of the slice. Raises ValueError or TypeError for unusable arguments.
 
     Parameters
@@ -87,11 +87,11 @@ def make_cut(normal: Normal, origin: Any, function: Any, center: Callable[[], np
         Returns the default of the origin.
     """
     if function is None:
-        plane = Plane(_normal_of(normal))
+        plane = Plane(_normal_of("x" if normal is None else normal))
         origin = center() if origin is None else three_numbers("origin", origin)
         return plane, float(plane.at(origin[None])[0])
-    if origin is not None:
-        raise TypeError("origin goes with a normal, not with a function")
+    if normal is not None or origin is not None:
+        raise TypeError("normal and origin are those of a plane, and do not go with a function: give one or the other")
     return cut_by(function)
 
 
@@ -101,7 +101,12 @@ def cut_by(function: Any) -> tuple[Cut, float]:
         # Subclasses, such as ParaView's, may have an offset besides.
         zero, gradient = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
         function.EvaluateGradient(zero, gradient)
-        return Plane(np.array(gradient)), -function.EvaluateFunction(zero)
+        length, level = math.hypot(*gradient), -function.EvaluateFunction(zero)
+        if length == 0.0:
+            raise ValueError("The normal of the plane is zero. Set a direction.")
+        if not math.isfinite(length) or not math.isfinite(level):
+            raise ValueError("The normal or the origin of the plane is not finite. Set finite numbers.")
+        return Plane(np.array(gradient)), level
     if not (callable(function) or is_implicit_function(function)):
         raise TypeError(f"function cannot be {function!r}: it is a function of places, shape (n, 3), or a"
                         " vtkImplicitFunction")
@@ -180,23 +185,35 @@ def rounded(numbers: np.ndarray, dtype: np.dtype) -> np.ndarray:
     return np.where(numbers >= float(limits.max), limits.max, nearest).astype(dtype)
 
 
-def describe_empty(levels: list[float], least: float, greatest: float, dropped: int, is_plane: bool,
-                   beside: Optional[str] = None) -> Optional[str]:
+def is_outermost(levels: list[float], least: float, greatest: float) -> bool:
+    """Whether no sample is beyond a slice, up to rounding: as by a box in the bounds of the samples."""
+    return any(greatest - 1e-9 * (greatest - least) <= level <= greatest for level in levels)
+
+
+def describe_empty(levels: list[float], least: float, greatest: float, dropped: int, beside: Optional[str] = None
+                   ) -> Optional[str]:
     """Why slices at these levels are all empty, for samples with values from the least to the greatest.
 
     Parameters
     ----------
     beside
-        A text for levels that are not between the samples' values, instead of one with these values.
+        The reason and the remedy for levels on one side of all samples, instead of a text with these numbers.
     """
     if least > greatest or math.isnan(least):
         return None
-    if not any(least < level <= greatest for level in levels):
-        if beside is not None:
-            return beside
-        at = ", ".join(f"{level:g}" for level in levels[:5]) or "no level"
-        return (f"The slice is empty: the function is from {least:g} to {greatest:g} at the samples, and not at {at}."
-                + (" Choose an origin between the samples." if is_plane else " Choose other offsets."))
-    if dropped:
-        return "The slice is empty: all of it is in gaps between samples. Turn drop_gaps off."
-    return "The slice is empty: the samples are in one plane, or fewer than four."
+    if not levels:
+        reason = "there are no offsets. Set one, such as 0."
+    elif least == greatest:
+        reason = "the cut function is the same at all samples. Choose one that has samples on both sides."
+    elif is_outermost(levels, least, greatest):
+        reason = "no sample is beyond it. Move it among the samples; make a box or a sphere smaller."
+    elif any(least < level <= greatest for level in levels):
+        reason = ("all of it is in gaps between samples. Turn drop_gaps off." if dropped else
+                  "the samples are in one plane, or fewer than four.")
+    elif least in levels:
+        reason = "samples on it count as above it, and none are below. Move it among the samples."
+    else:
+        at = ", ".join(f"{level:g}" for level in levels[:5])
+        reason = beside or (f"the function is from {least:g} to {greatest:g} at the samples, and not at {at}. Move it"
+                            " among the samples.")
+    return f"The slice is empty: {reason}"

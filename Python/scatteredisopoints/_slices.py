@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ._samples import Samples
 
 
-def sliced(samples: Samples, normal: Normal, origin: Any, arrays: Any, function: Any, offsets: Any, interpolation: Any,
+def sliced(samples: Samples, normal: Optional[Normal], origin: Any, arrays: Any, function: Any, offsets: Any, interpolation: Any,
            threads: Optional[int], progress: Progress, options: Mapping[str, Any], stacklevel: int) -> Isosurface:
     """Samples.slice()."""
     fits = with_fits(interpolation)
@@ -34,7 +34,7 @@ def sliced(samples: Samples, normal: Normal, origin: Any, arrays: Any, function:
     if arrays is None and samples._differing:
         texts.append(_datasets.describe_differing(samples._differing))
     if len(made.isosurface) == 0:
-        text = describe_empty(levels, *made.range, made.dropped, cut.is_plane)
+        text = describe_empty(levels, *made.range, made.dropped)
         texts = [*texts, *([] if text is None else [text])]
     for text in texts:
         warnings.warn(text, RuntimeWarning, stacklevel=stacklevel)
@@ -104,7 +104,8 @@ def _hold_cut(samples: Samples, cut: Cut, report: Any) -> Optional[np.ndarray]:
     at_samples = cut.at(positions)
     lacking = np.count_nonzero(~np.isfinite(at_samples) & np.isfinite(positions).all(axis=1))
     if lacking:
-        raise ValueError(f"function is not finite at {lacking} of {samples._count} samples")
+        raise ValueError(f"The cut function is not finite at {lacking} of {samples._count} samples. Choose one that is"
+                         " finite everywhere.")
     left_out = [samples._excluded]
     if samples._values is not None:  # the same samples as for their isosurfaces, whose tree is kept
         left_out += [samples._masked, ~np.isfinite(as_numpy(samples._values))]

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import errno
 import re
-from typing import Any, Callable, Optional
+from typing import Any, Callable, Iterable, Optional
 
 import numpy as np
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
@@ -86,6 +86,13 @@ def fill(output: Any, data: Any, make: Callable[[Any, int], Any], are_all: bool 
     for number, place in enumerate(_datasets.places(data)):
         block = place.GetCurrentDataObject()
         output.SetDataSet(place, make(block, number) if are_all or block.IsA("vtkDataSet") else None)
+
+
+def describe_left_out(names: Iterable[str], rule: str) -> list[_library.Message]:
+    """The note that arrays are left out of the output, if any, and which are not."""
+    listed = ", ".join(f'"{name}"' for name in sorted(names))
+    return [] if not listed else [_library.Message(
+        f"Left out of the output: {listed}. {rule}", is_warning=False, cause=f"left out {listed}")]
 
 
 class Algorithm(VTKPythonAlgorithmBase):

@@ -4,17 +4,16 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, Mapping
 
 import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
 
 from . import _datasets, _library
-from ._arrays import positions_of, readable
+from ._arrays import as_numpy, positions_of, readable
 from ._derivatives import DERIVATIVES
 from ._options import CONSTANTS
 from ._polydata import as_vtk
-from ._shared_arrays import shared_arrays
 from ._vtk_algorithm import fill, with_properties
 from ._vtk_probe import LOADED, PACKAGE, Probing
 
@@ -37,19 +36,26 @@ class vtkScatteredGradientFilter(Probing):
         return type(data.NewInstance())
 
     def _compute(self, data: Any, output: Any) -> list[_library.Message]:
+        wanted = self._wanted()
         choice = self._array_choice()
         samples = self._loaded(
             data, 0, choice, lambda: _datasets.samples_of(data, *choice, are_values=False), (0.0, LOADED))
         parts = self._kept[0][2]
         self._count_samples(samples)
-        name = samples._name
-        array = shared_arrays(data, parts)[0].get(name)
-        if array is None:
-            raise ValueError(f'The array "{name}" has different numbers of components in the blocks of the input, or no'
-                             " name. Choose another one.")
-        places = positions_of(samples._current("positions", samples._positions))
-        _, gradients, kinds = self._probe(samples, places, {name: readable(name, array.numbers)}, math.nan, True)
-        results = self._derived(gradients[name].reshape(len(places), -1, 3))
+        results: dict[str, np.ndarray] = {}
+        messages: list[_library.Message] = []
+        if wanted:
+            name, leaves = samples._name, list(_datasets.leaves(data))
+            attributes = [leaves[part.leaf].GetAttributes(part.association) for part in parts]
+            numbers = _numbers_in([each.GetAbstractAttribute(choice[2]) if choice[0] is None else
+                                   each.GetArray(choice[0]) for each in attributes], name)
+            _check_components(wanted, numbers)
+            places = positions_of(samples._current("positions", samples._positions))
+            _, found, kinds = self._probe(samples, places, {name: readable(name, numbers)}, math.nan, True)
+            gradients = found[name].reshape(len(places), -1, 3)
+            results = {label: DERIVATIVES[derivative](gradients) for label, derivative in wanted.items()}
+            messages = [*self._describe_flat(kinds, "gradients have no part across."),
+                        *_describe_lacking(gradients, places)]
         _copy(data, output)
         blocks, first = list(_datasets.leaves(output)), 0
         for part in parts:
@@ -58,18 +64,44 @@ class vtkScatteredGradientFilter(Probing):
                 attributes.AddArray(as_vtk(PACKAGE, label, numbers[first:first + part.count]))
             first += part.count
         return [*self._describe_skipped(samples, "There are no values. Connect samples with finite positions.",
-                                        "Values there are those of the samples around."),
-                *self._describe_flat(kinds, "gradients have no part across.")]
+                                        "Gradients are those of the other samples."), *messages]
 
-    def _derived(self, gradients: np.ndarray) -> dict[str, np.ndarray]:
-        """Arrays by name, of gradients of shape (n, c, 3)."""
-        count = gradients.shape[1]
-        wanted = [names for switch, names in _SWITCHES.items() if self._values[switch]]
-        if count != 3 and any(derivative != "gradient" for derivative, _ in wanted):
-            raise ValueError("Divergence, vorticity and Q-criterion need vectors, but the array has"
-                             f" {count} component{'s' if count > 1 else ''}. Choose an array with three components, or"
-                             " compute the gradient alone.")
-        return {self._values[name]: DERIVATIVES[derivative](gradients) for derivative, name in wanted}
+    def _wanted(self) -> dict[str, str]:
+        """The derivatives to compute, by the names of their arrays. Raises ValueError for unusable names."""
+        wanted: dict[str, str] = {}
+        for switch, (derivative, property_) in _SWITCHES.items():
+            name = self._values[property_]
+            if not self._values[switch]:
+                continue
+            if name in ("", "vtkGhostType", *wanted):
+                raise ValueError(f'A computed array cannot have the name "{name}": empty, that of ghost marks, or that'
+                                 " of another one. Set another name.")
+            wanted[name] = derivative
+        return wanted
+
+
+def _numbers_in(pieces: list[Any], name: str) -> np.ndarray:
+    """The numbers of an array in all blocks. Raises ValueError if blocks have different numbers of components."""
+    numbers = [as_numpy(piece) for piece in pieces]
+    if len({each.shape[1:] for each in numbers}) > 1:
+        raise ValueError(f'The array "{name}" has different numbers of components in the blocks of the input. Choose'
+                         " another one.")
+    return numbers[0] if len(numbers) == 1 else np.concatenate(numbers)
+
+
+def _check_components(wanted: Mapping[str, str], numbers: np.ndarray) -> None:
+    count = int(np.prod(numbers.shape[1:]))
+    if count != 3 and any(derivative != "gradient" for derivative in wanted.values()):
+        raise ValueError("Divergence, vorticity and Q-criterion need vectors, but the array has"
+                         f" {count} component{'s' if count > 1 else ''}. Choose an array with three components, or"
+                         " compute the gradient alone.")
+
+
+def _describe_lacking(gradients: np.ndarray, places: np.ndarray) -> list[_library.Message]:
+    count = np.count_nonzero(np.isnan(gradients).any(axis=(1, 2)) & np.isfinite(places).all(axis=1))
+    return [] if count == 0 else [_library.Message(
+        f"{count} of {len(places)} points have no gradient: no samples around are in use and have finite values. Choose"
+        " another array, or show hidden samples.", is_warning=count == len(places), cause="no gradient")]
 
 
 def _copy(data: Any, output: Any) -> None:

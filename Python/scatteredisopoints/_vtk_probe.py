@@ -20,11 +20,13 @@ from ._polydata import as_vtk
 from ._progress import part
 from ._samples import Samples
 from ._shared_arrays import DOUBLE, SharedArray, shared_arrays
-from ._vtk_algorithm import ScatteredAlgorithm, fill, with_properties
+from ._vtk_algorithm import ScatteredAlgorithm, describe_left_out, fill, with_properties
 
 PACKAGE = "vtkmodules"
 MASK_POINTS, NULL_VALUE, CLOSEST_POINT = range(3)
 LOADED = 0.2  # share of the progress
+LINE_LENGTH = "arc_length"
+MOST_POINTS = 1e11  # of images, whose positions take terabytes
 
 
 class Probing(ScatteredAlgorithm):
@@ -69,6 +71,10 @@ class vtkScatteredProbeFilter(Probing):
                 outputs.GetInformationObject(0).CopyEntry(source, key)
         return 1
 
+    def _own_arrays(self) -> set[str]:
+        """The names of the arrays that the filter makes itself. Those of samples do not replace them."""
+        return {self._values["ValidPointsMaskArrayName"]} if self._values["NullPointsStrategy"] == MASK_POINTS else set()
+
     def _make_places(self, samples: Samples, output: Any) -> None:
         """Gives the output its points, and the arrays that it has besides interpolated ones."""
         places = self.GetInput()
@@ -101,6 +107,8 @@ class vtkScatteredProbeFilter(Probing):
         self._count_samples(samples)
         self._make_places(samples, output)
         arrays, left_out = shared_arrays(data, self._kept[0][2])
+        has_arrays, own = len(arrays) > 0, self._own_arrays() & arrays.keys()
+        arrays = {name: array for name, array in arrays.items() if name not in own}
         blocks = [block for block in _datasets.leaves(output) if block.IsA("vtkDataSet")]
         places = [positions_of(as_numpy(_datasets.point_positions(block))) for block in blocks]
         keeps_types = self._values["Interpolation"] == CONSTANTS["method"]["NEAREST"]
@@ -116,9 +124,12 @@ class vtkScatteredProbeFilter(Probing):
         is_lost = self._values["MarkBlankPointsAndCells"] or strategy != CLOSEST_POINT
         return [*self._describe_skipped(samples, "There are no values. Connect samples with finite positions.",
                                         "Values there are those of the samples around."),
-                *_describe_lacking(arrays, are_null if is_lost else are_null[:0]),
+                *_describe_lacking(has_arrays, are_null if is_lost else are_null[:0]),
                 *self._describe_flat(kinds, "values are those at the nearest point of it."),
-                *_describe_left_out(left_out)]
+                *describe_left_out(own, "The output has an array of its own with this name. Rename that of the"
+                                   " samples."),
+                *describe_left_out(left_out, "Only arrays of numbers are interpolated that all blocks have, with the same"
+                                   " components.")]
 
     def _add(self, blocks: list[Any], results: dict[str, tuple[SharedArray, np.ndarray, int]], are_null: np.ndarray
              ) -> None:
@@ -151,10 +162,10 @@ def _typed(name: str, numbers: np.ndarray, data_type: int) -> Any:
     return converted
 
 
-def _describe_lacking(arrays: dict, are_null: np.ndarray) -> list[_library.Message]:
+def _describe_lacking(has_arrays: bool, are_null: np.ndarray) -> list[_library.Message]:
     """Messages about values that are missing everywhere."""
     messages = []
-    if not arrays:
+    if not has_arrays:
         messages.append(_library.Message(
             "The samples have no arrays of numbers, nor has the output. Load arrays in the reader.", is_warning=True,
             cause="no arrays"))
@@ -163,13 +174,6 @@ def _describe_lacking(arrays: dict, are_null: np.ndarray) -> list[_library.Messa
             f"All {len(are_null)} points are outside of the samples, where there are no values. Move them among the"
             " samples.", is_warning=True, cause="all outside"))
     return messages
-
-
-def _describe_left_out(names: list[str]) -> list[_library.Message]:
-    listed = ", ".join(f'"{name}"' for name in names)
-    return [] if not names else [_library.Message(
-        f"Left out of the output: {listed}. Only arrays of numbers are interpolated that all blocks have, with the same"
-        " components.", is_warning=False, cause=f"left out {listed}")]
 
 
 for _name, _number in CONSTANTS["method"].items():
@@ -189,18 +193,23 @@ class vtkScatteredLineFilter(vtkScatteredProbeFilter):
         outputs.GetInformationObject(0).Set(vtkAlgorithm.CAN_HANDLE_PIECE_REQUEST(), 1)
         return 1
 
+    def _own_arrays(self) -> set[str]:
+        return {*super()._own_arrays(), LINE_LENGTH}
+
     def _make_places(self, samples: Samples, output: Any) -> None:
+        begin, end = (np.array(self._values[name]) for name in ("Point1", "Point2"))
+        if not np.isfinite([begin, end]).all():
+            raise ValueError("The ends of the line are not finite. Set finite numbers.")
         if self.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.UPDATE_PIECE_NUMBER()) > 0:
             return
         count = self._values["Resolution"] + 1
-        begin, end = (np.array(self._values[name]) for name in ("Point1", "Point2"))
         shares = np.arange(count) / self._values["Resolution"]
         points, lines = vtkPoints(), vtkCellArray()
         points.SetData(as_vtk(PACKAGE, "Points", (1.0 - shares[:, None]) * begin + shares[:, None] * end))
         lines.SetData(*(numpy_to_vtkIdTypeArray(ids, deep=True) for ids in (np.array([0, count]), np.arange(count))))
         output.SetPoints(points)
         output.SetLines(lines)
-        output.GetPointData().AddArray(as_vtk(PACKAGE, "arc_length", shares * _length(end - begin)))
+        output.GetPointData().AddArray(as_vtk(PACKAGE, LINE_LENGTH, shares * _length(end - begin)))
 
 
 def _length(vector: np.ndarray) -> float:
@@ -250,9 +259,13 @@ class vtkScatteredGridFilter(vtkScatteredProbeFilter):
             origin.append(least + (0.0 if steps > 0 else 0.5 * length))
         if any(low > high for low, high in zip(extent[::2], extent[1::2])):
             extent = [0, -1, 0, -1, 0, -1]  # of no points, for any axis
-        # So that the next update does not take missing layers for missing data.
-        info.Set(pipeline.WHOLE_EXTENT(), whole, 6)
-        info.Set(pipeline.UPDATE_EXTENT(), extent, 6)
+        if math.prod(float(high - low + 1) for low, high in zip(extent[::2], extent[1::2])) > MOST_POINTS:
+            raise ValueError("The image has too many points for any memory. Reduce the sampling dimensions.")
+        # Filters downstream and the next update do not take missing layers for missing data. Pieces remain those of the
+        # same extent, which the executive keeps for them.
+        if info.Get(pipeline.UPDATE_NUMBER_OF_PIECES()) <= 1:
+            info.Set(pipeline.WHOLE_EXTENT(), whole, 6)
+            info.Set(pipeline.UPDATE_EXTENT(), extent, 6)
         output.SetOrigin(origin)
         output.SetSpacing(spacing)
         output.SetExtent(extent)

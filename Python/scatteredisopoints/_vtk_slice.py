@@ -3,17 +3,17 @@
 
 from __future__ import annotations
 
-from typing import Any, Optional
+from typing import Any
 
 from vtkmodules.vtkCommonCore import vtkWeakReference
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from . import _datasets, _library
-from ._cuts import cut_by, describe_empty
+from ._cuts import cut_by, describe_empty, is_outermost
 from ._options import OF_SLICES, make_slice_options, property_name
 from ._progress import part
 from ._slices import Slice, arrays_of, make_slice
-from ._vtk_algorithm import ContourValues, ScatteredAlgorithm, in_properties, with_counts, with_properties
+from ._vtk_algorithm import ContourValues, ScatteredAlgorithm, describe_left_out, in_properties, with_counts, with_properties
 
 LOADED = 0.2  # share of the progress
 
@@ -65,7 +65,8 @@ class vtkScatteredSliceFilter(ContourValues, ScatteredAlgorithm):
         self._counts["ExtractedPoints"] = len(made.isosurface)
         return [*self._describe_skipped(samples, "There is no slice. Connect samples with finite positions.",
                                         "The slice there is that of the samples around."),
-                *_describe(made, levels, cut.is_plane)]
+                *_describe(made, levels), *describe_left_out(
+                    samples._differing, "Only arrays are kept that all blocks have, with the same components.")]
 
 
 def _modifying(slice_: vtkScatteredSliceFilter) -> Any:
@@ -81,10 +82,12 @@ def _modifying(slice_: vtkScatteredSliceFilter) -> Any:
     return modify
 
 
-def _describe(made: Slice, levels: list[float], is_plane: bool) -> list[_library.Message]:
-    text: Optional[str] = None
+def _describe(made: Slice, levels: list[float]) -> list[_library.Message]:
+    least, greatest = made.range
     if len(made.isosurface) == 0:
-        text = describe_empty(
-            levels, *made.range, made.dropped, is_plane,
-            beside="The slice is empty: all samples are on one side of it. Move it among the samples.")
-    return [] if text is None else [_library.Message(text, is_warning=True, cause="empty slice")]
+        text = describe_empty(levels, least, greatest, made.dropped,
+                              "all samples are on one side of it. Move it among the samples.")
+        return [] if text is None else [_library.Message(text, is_warning=True, cause="empty slice")]
+    return [] if not is_outermost(levels, least, greatest) else [_library.Message(
+        "The slice is only where samples are on it, as no sample is beyond it. Move it among the samples; make a box or"
+        " a sphere smaller.", is_warning=False, cause="outermost slice")]

@@ -16,7 +16,7 @@ from .probing import samples_for
 def slice_samples(
     positions: Any,
     arrays: Any = None,
-    normal: Normal = "x",
+    normal: Optional[Normal] = None,
     origin: Any = None,
     *,
     function: Any = None,
@@ -38,7 +38,7 @@ def slice_samples(
         Numbers of the samples, shape (n,) or (n, c), or a mapping of names to such arrays. For a data set also the
         name of an array of points or cells, or a list of names. None: all arrays of the data set.
     normal
-        Of the plane: "x", "y", "z", "-x", "-y", "-z" or a vector.
+        Of the plane: "x", "y", "z", "-x", "-y", "-z" or a vector; None: "x".
     origin
         A place on the plane; None: the center of the samples' bounds.
     function

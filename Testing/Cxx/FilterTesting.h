@@ -248,14 +248,14 @@ public:
   std::vector<std::string> All;
 };
 
-inline vtkSmartPointer<MessageWatcher> watchMessages(vtkAlgorithm* filter, unsigned long event)
+inline vtkSmartPointer<MessageWatcher> watchMessages(vtkObject* filter, unsigned long event)
 {
   const auto watcher = vtkSmartPointer<MessageWatcher>::Take(MessageWatcher::New());
   filter->AddObserver(event, watcher);
   return watcher;
 }
 
-inline vtkSmartPointer<MessageWatcher> watchErrors(vtkAlgorithm* filter)
+inline vtkSmartPointer<MessageWatcher> watchErrors(vtkObject* filter)
 {
   return watchMessages(filter, vtkCommand::ErrorEvent);
 }

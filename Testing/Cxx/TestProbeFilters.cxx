@@ -10,6 +10,7 @@
 #include "vtkScatteredProbeFilter.h"
 
 #include "vtkErrorCode.h"
+#include "vtkExecutive.h"
 #include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -197,6 +198,16 @@ TEST(ProbeFilters, PlacesOfEveryKindGetTheSameValues)
     EXPECT_EQ(bitsOf(block->GetPointData()->GetArray("distance")),
       probed(cloud, i == 0 ? newPlaces() : newCloud(7), "distance"));
   }
+  // Hyper tree grids have no points: none is a place, and as leaves they are left out.
+  const auto trees = probeOf(cloud, newHyperTreeGrid());
+  const auto errors = watchErrors(trees->GetExecutive());
+  trees->Update();
+  ASSERT_EQ(errors->count(), 1u);
+  expectContains(errors->last(), "vtkHyperTreeGrid");
+  const auto among = probeOf(cloud, blocksOf({ newHyperTreeGrid(), newPlaces() }));
+  among->Update();
+  EXPECT_EQ(among->GetErrorCode(), 0u);
+  EXPECT_FALSE(vtkMultiBlockDataSet::SafeDownCast(among->GetOutput())->GetBlock(0));
 }
 
 TEST(ProbeFilters, NullPointsFollowTheStrategy)
@@ -403,16 +414,34 @@ TEST(ProbeFilters, GridFillsTheBoundsOfTheSamples)
   filter->GetOutput()->GetDimensions(dimensions);
   EXPECT_EQ(dimensions[2], 1);
   EXPECT_EQ(filter->GetOutput()->GetBounds()[4], 3.0);
+  const vtkMTimeType time = filter->GetOutput()->GetMTime();
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetMTime(), time) << "nothing is missing";
   filter->SetSamplingDimensions(6, 5, 40); // pieces divide the longest axis
-  vtkIdType inPieces = 0;
-  for (int piece = 0; piece < 3; ++piece)
+  const auto pipelineErrors = watchErrors(filter->GetExecutive());
+  for (const bool isNew : { true, false }) // a grid whose layer is not known yet
   {
-    filter->Modified(); // the pieces of a grid whose layer is not known yet
-    filter->UpdatePiece(piece, 3, 0);
-    EXPECT_EQ(filter->GetErrorCode(), 0u);
-    inPieces += filter->GetOutput()->GetNumberOfCells();
+    vtkIdType inPieces = 0;
+    for (int piece = 0; piece < 3; ++piece)
+    {
+      if (isNew)
+      {
+        filter->Modified();
+      }
+      filter->UpdatePiece(piece, 3, 0);
+      EXPECT_EQ(filter->GetErrorCode(), 0u);
+      inPieces += filter->GetOutput()->GetNumberOfCells();
+    }
+    EXPECT_EQ(inPieces, 5 * 4);
   }
-  EXPECT_EQ(inPieces, 5 * 4);
+  EXPECT_EQ(pipelineErrors->count(), 0u);
+  const auto deep = newCloud(1000); // a layer does not outlast flat samples
+  filter->SetInputData(deep);
+  filter->UpdatePiece(0, 1, 0);
+  filter->GetOutput()->GetDimensions(dimensions);
+  EXPECT_EQ(dimensions[2], 40);
+  filter->SetInputData(cloud);
+  filter->UpdatePiece(0, 1, 0);
   filter->UseInputBoundsOff();
   filter->SetSamplingBounds(0.0, 1.0, 1.0, 0.0, 0.0, 1.0);
   expectError(filter, "ascending");

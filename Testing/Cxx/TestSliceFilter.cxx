@@ -12,8 +12,11 @@
 #include "vtkPlane.h"
 #include "vtkSphere.h"
 #include "vtkTransform.h"
+#include "vtkTypeInt64Array.h"
+#include "vtkTypeUInt64Array.h"
 
 #include <cerrno>
+#include <limits>
 
 using namespace inputtesting;
 
@@ -169,6 +172,43 @@ TEST(SliceFilter, KeepsTypesIdsAndTexts)
     EXPECT_EQ(texts->GetValue(i), std::to_string(static_cast<vtkIdType>(id)));
     const Vector sample = placeOf(cloud, static_cast<vtkIdType>(id) / 7);
     EXPECT_LT(length({ sample[0] - p[0], sample[1] - p[1], sample[2] - p[2] }), 1.0);
+  }
+}
+
+/// Those of 64 bits exceed their range when they are rounded to double.
+TEST(SliceFilter, LargestIntegersStay)
+{
+  const auto cloud = newCloud(1000);
+  const auto most = newArray<vtkTypeInt64Array>("most", 1000);
+  most->FillValue(std::numeric_limits<vtkTypeInt64>::max());
+  const auto all = newArray<vtkTypeUInt64Array>("all", 1000);
+  all->FillValue(std::numeric_limits<vtkTypeUInt64>::max());
+  const auto byte = newArray<vtkUnsignedCharArray>("byte", 1000);
+  byte->FillValue(255);
+  for (vtkDataArray* const array : std::initializer_list<vtkDataArray*>{ most, all, byte })
+  {
+    cloud->GetPointData()->AddArray(array);
+  }
+  const auto plane = planeAt(0.0);
+  vtkNew<vtkSphere> sphere;
+  for (vtkImplicitFunction* const function :
+    std::initializer_list<vtkImplicitFunction*>{ plane, sphere })
+  {
+    for (const int interpolation : { Slice::FITS, Slice::LINEAR })
+    {
+      const auto filter = sliceOf(cloud, function);
+      filter->SetInterpolation(interpolation);
+      vtkPolyData* const output = updated(filter);
+      ASSERT_GT(output->GetNumberOfPoints(), 50);
+      for (vtkDataArray* const array : std::initializer_list<vtkDataArray*>{ most, all, byte })
+      {
+        vtkDataArray* const found = output->GetPointData()->GetArray(array->GetName());
+        for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+        {
+          ASSERT_EQ(found->GetVariantValue(i), array->GetVariantValue(0)) << array->GetName();
+        }
+      }
+    }
   }
 }
 

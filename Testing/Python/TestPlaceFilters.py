@@ -18,7 +18,8 @@ from vtk_data import (
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonCore import VTK_DOUBLE, vtkBitArray, vtkIdList
-from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet, vtkPlane, vtkPolyData, vtkSphere, vtkTable
+from vtkmodules.vtkCommonDataModel import (
+    vtkBox, vtkImplicitBoolean, vtkMultiBlockDataSet, vtkPlane, vtkPolyData, vtkSphere, vtkTable)
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline, vtkTrivialProducer
 from vtkmodules.vtkCommonTransforms import vtkTransform
 
@@ -220,6 +221,20 @@ class PlaceFilters(FilterTests):
         filter_ = self.new("Line", samples)
         filter_.UpdatePiece(1, 2, 0)
         self.assertEqual(filter_.GetOutput().GetNumberOfPoints(), 0)
+        self.assert_error(self.new("Line", samples, Point2=(1, np.inf, 0)), "ends of the line are not finite")
+
+    def test_own_arrays_stay(self):
+        samples, places = cloud(1000), some_places()
+        for name in ("arc_length", "mask"):
+            add(samples, POINTS, name, np.full(1000, -5.0))
+        filter_ = self.new("Line", samples, Resolution=10, ValidPointsMaskArrayName="mask")
+        self.assert_one(self.texts_of(filter_, "MessageEvent"), 'Left out of the output: "arc_length", "mask". The')
+        np.testing.assert_allclose(values_in(filter_.GetOutput(), "arc_length"), np.linspace(0, np.sqrt(3), 11))
+        self.assertEqual(filter_.GetOutput().GetPointData().GetArray("mask").GetClassName(), "vtkCharArray")
+        filter_ = self.probe(samples, places, ValidPointsMaskArrayName="mask")
+        self.assert_one(self.texts_of(filter_, "MessageEvent"), 'Left out of the output: "mask". The')
+        set_all(filter_, NullPointsStrategy=filter_.NULL_VALUE, NullValue=-5)
+        np.testing.assert_allclose(values_in(self.output(filter_), "mask"), -5)
 
     def test_grids(self):
         samples = cloud(1000)
@@ -266,6 +281,18 @@ class PlaceFilters(FilterTests):
         filter_.SetSamplingDimensions(3, 2, 1)
         self.assertEqual(self.output(filter_).GetNumberOfPoints(), 6)
         self.assert_error(self.new("Grid", with_ghosts(cloud(10), POINTS, [HIDDEN_POINT])), "All samples are hidden")
+        self.assert_error(self.new("Grid", cloud(10), SamplingDimensions=3 * (100000,)), "Reduce the sampling dim")
+
+    def test_pieces_of_flat_grids(self):
+        samples = cloud(1000)
+        vtk_to_numpy(samples.GetPoints().GetData())[:, 2] = 3
+        filter_ = self.new("Grid", samples, SamplingDimensions=(6, 5, 40))  # pieces divide the longest axis
+        cells = []
+        for piece in range(3):
+            filter_.UpdatePiece(piece, 3, 0)
+            self.assertEqual(filter_.GetErrorCode(), 0)
+            cells.append(filter_.GetOutput().GetNumberOfCells())
+        self.assertEqual(cells, [20, 0, 0])
 
     def test_time_steps_are_those_of_the_source(self):
         filter_ = self.probe(cloud(), some_places(1))
@@ -329,6 +356,31 @@ class PlaceFilters(FilterTests):
         self.assert_error(chosen(self.new("Gradient", blocks_of(halves[0], bare)), "distance"),
                           "different numbers of components")
 
+    def test_gradients_that_are_not_there(self):
+        samples = cloud(1000)
+        are_right = values_in(samples, "x") > 0
+        for are_hidden, event in ((are_right | True, "WarningEvent"), (are_right, "MessageEvent")):
+            filter_ = self.new("Gradient", with_ghosts(samples, POINTS, (HIDDEN_POINT * are_hidden).tolist()))
+            texts = self.texts_of(filter_, event)
+            lacking = np.isnan(values_in(filter_.GetOutput(), "Gradients")).any(axis=1).sum()
+            self.assertGreater(lacking, 100)
+            self.assert_one(texts, f"{lacking} of 1000 points have no gradient: no samples around are in use")
+        self.assert_one(self.texts_of(self.new("Gradient", cloud_of(positions_in(samples), np.full(1000, np.nan)))),
+                        "1000 of 1000 points have no gradient: no samples around are in use and have finite values.")
+
+    def test_names_of_derivatives(self):
+        samples = cloud(500)
+        filter_ = chosen(self.new("Gradient", samples, ComputeDivergence=1), "position")
+        for name in ("", "vtkGhostType", "Gradients"):
+            self.assert_error(set_all(filter_, DivergenceArrayName=name), f'cannot have the name "{name}"')
+        set_all(filter_, DivergenceArrayName="d")
+        np.testing.assert_allclose(values_in(self.output(filter_), "d"), 3, atol=1e-8)
+        set_all(filter_, ComputeDivergence=0, ComputeGradient=0)
+        self.assertEqual(names_in(self.output(filter_).GetPointData()), ["distance", "x", "position"])
+        expected = values_in(self.output(self.new("Gradient", samples)), "Gradients").copy()
+        samples.GetPointData().GetScalars().SetName(None)
+        np.testing.assert_array_equal(values_in(self.output(self.new("Gradient", samples)), "Gradients"), expected)
+
     # Slices
 
     def test_slices_of_functions(self):
@@ -384,6 +436,22 @@ class PlaceFilters(FilterTests):
         self.assert_one(self.texts_of(self.new("Slice", apart, Value=(0, 20.0))), "in gaps", "Turn DropGaps off")
         vtk_to_numpy(apart.GetPoints().GetData())[:, 0] = 0
         self.assert_one(self.texts_of(self.new("Slice", apart)), "in one plane")
+        vtk_to_numpy(apart.GetPoints().GetData())[:, 2] = 0.1
+        for function in (vtkImplicitBoolean(), set_all(vtkPlane(), Normal=(0, 0, 1), Origin=(0, 0, 0.1))):
+            self.assert_one(self.texts_of(self.new("Slice", apart, CutFunction=function)), "the same at all samples")
+        least = set_all(vtkPlane(), Normal=(0, 0, 1), Origin=(0, 0, -1))
+        self.assert_one(self.texts_of(self.new("Slice", image(), CutFunction=least)), "count as above it")
+        self.assert_one(self.texts_of(self.new("Slice", samples, NumberOfContours=0)), "no offsets")
+        for data, event in ((samples, "WarningEvent"), (image(), "MessageEvent")):
+            box = set_all(vtkBox(), Bounds=data.GetBounds())  # ParaView's default
+            filter_ = self.new("Slice", data, CutFunction=box)
+            self.assert_one(self.texts_of(filter_, event), "no sample is beyond it")
+            box.SetBounds(3 * (-0.5, 0.5))
+            self.assertEqual(self.texts_of(filter_, event), [])
+        blocks = [add(cloud(500, seed), POINTS, str(seed), np.zeros(500)) for seed in (1, 2)]
+        for interpolation in (0, 1):
+            filter_ = self.new("Slice", blocks_of(*blocks), Interpolation=interpolation)
+            self.assert_one(self.texts_of(filter_, "MessageEvent"), 'Left out of the output: "1", "2". Only arrays')
         self.assert_error(self.new("Slice", samples, Value=(0, np.nan)), "not a number")
 
     def test_pieces_of_slices(self):
@@ -411,10 +479,12 @@ class PlaceFilters(FilterTests):
 
     def test_functions_that_are_not_finite(self):
         filter_ = self.new("Slice", cloud(500), CutFunction=set_all(vtkSphere(), Radius=np.nan))
-        if self.differs("Slices: a function that is not finite at a sample is an error."):
-            self.assert_error(filter_, "function is not finite at 500 of 500 samples")
-        else:
-            self.assert_one(self.texts_of(filter_), "Skipped 500 of 500 samples: not finite. There is no slice.")
+        self.assert_error(filter_, "The cut function is not finite at 500 of 500 samples.")
+        for name, numbers, word in (("Normal", (0, np.nan, 1), "not finite"), ("Normal", (0, 0, 0), "zero"),
+                                    ("Origin", (np.inf, 0, 0), "not finite")):
+            plane = set_all(vtkPlane(), Normal=(1, 0, 0))
+            getattr(plane, f"Set{name}")(numbers)
+            self.assert_error(self.new("Slice", cloud(500), CutFunction=plane), "of the plane is", word)
 
     # Messages
 

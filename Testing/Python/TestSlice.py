@@ -130,7 +130,9 @@ class KeptSamples(unittest.TestCase):
 class Calls(unittest.TestCase):
     def test_empty_slices(self):
         for arguments, text in (
-                ((POSITIONS, None, "x", [2, 0, 0]), "from .* and not at 2. Choose an origin"),
+                ((POSITIONS, None, "x", [2, 0, 0]), "from .* and not at 2. Move it among"),
+                ((POSITIONS, None, "x", POSITIONS[POSITIONS[:, 0].argmin()]), "count as above it, and none are below"),
+                ((POSITIONS * [1, 1, 0], None, "z"), "the same at all samples"),
                 ((POSITIONS * [1, 1, 0], None, "x"), "in one plane")):
             with self.assertWarnsRegex(RuntimeWarning, "The slice is empty: .*" + text) as caught:
                 self.assertEqual(len(slice_samples(*arguments)), 0)
@@ -141,6 +143,7 @@ class Calls(unittest.TestCase):
                 (dict(normal="w"), ValueError, '"-x"'), (dict(normal=(0, 0, 0)), ValueError, "length is 0"),
                 (dict(normal=(1, 2)), ValueError, "three"), (dict(origin=(1, np.nan, 2)), ValueError, "origin.*finite"),
                 (dict(function=3), TypeError, "function"), (dict(function=ball, origin=[0, 0, 0]), TypeError, "origin"),
+                (dict(function=ball, normal="x"), TypeError, "normal"),
                 (dict(function=lambda places: places), ValueError, "one number for each"),
                 (dict(function=lambda places: np.full(len(places), np.inf)), ValueError, "not finite at 20000"),
                 (dict(interpolation="cubic"), ValueError, '"fits" or "linear"'), (dict(angle=3), TypeError, "angle"),

@@ -21,7 +21,6 @@ DIFFERENCES = (
     "Isosurfaces: samples of blocks without the array have a message of their own.",
     'Isosurfaces: messages call ghosts "excluded".',
     "Slices: call `Modified()` after changes of the function's transform, or of functions within it.",
-    "Slices: a function that is not finite at a sample is an error.",
     "`vtkIsopointSplatPolygons`: points without normals have no polygons.",
 )
 
