@@ -43,7 +43,7 @@ def slice_samples(
         A place on the plane; None: the center of the samples' bounds.
     function
         Instead of a plane a function of places, shape (m, 3), that returns m numbers, or a vtkImplicitFunction. The
-        slice is where it is 0.
+        slice is where it is 0. It must be finite at the samples.
     offsets
         Values of the function on slices, one or several: for a plane distances along its normal.
     interpolation
