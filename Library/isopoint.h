@@ -310,7 +310,7 @@ ISOPOINT_API isopoint_status isopoint_probe_neighborhoods(
   const isopoint_probed* results, uint8_t* kinds);
 
 /* Weights of samples: a sparse matrix with a row for each place, in compressed rows. Its product
- * with an array is the value at each place. Coincident samples share a weight, but for NEAREST. */
+ * with an array is the value at each place. Coincident samples share a weight, except with NEAREST. */
 typedef struct isopoint_weights
 {
   int64_t row_count;

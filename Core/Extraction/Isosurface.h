@@ -74,9 +74,9 @@ struct IsosurfaceRequest
   bool duplicatesCreaseVertices = false;
   /// Triangles only: whether to merge vertices and flip edges for good shapes (docs/triangles.md).
   bool regularizes = false;
-  /// Triangles only, for slices: whether gaps begin only where edges span a void, and not at slivers
-  /// on the convex hull, and vertices of the rim stay when others merge, so that the rim is that of
-  /// the body (docs/triangles.md).
+  /// Triangles only, for slices: whether gaps begin only where edges span a void, and not at
+  /// slivers on the convex hull, and vertices of the rim stay when others merge, so that the rim is
+  /// that of the body (docs/triangles.md).
   bool keepsHullSlivers = false;
 };
 

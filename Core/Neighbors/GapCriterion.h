@@ -241,10 +241,10 @@ private:
   GapCriterion Beyond{ 0.5, 2 };
 };
 
-/// Rejects edges that span a void: those that another criterion rejects, and whose middle is
-/// farther from all samples than a factor times the spacing at one of their ends, the distance to
-/// the sixth nearest position. It spares long edges of slivers on the convex hull, which samples
-/// inside are close to.
+/// Rejects edges that span a void. Another criterion rejects such an edge, and no sample is as
+/// close to its middle as a factor times the spacing at one of its ends, the distance to the sixth
+/// nearest position. Long edges of slivers on the convex hull pass, because samples inside are
+/// close to them.
 template <class TCriterion>
 class VoidCriterion
 {

@@ -167,8 +167,8 @@ private:
   static constexpr double strongVoidFactor = 1.5;
   static constexpr double weakVoidFactor = 1.0;
 
-  /// The tetrahedra from which gaps spread: those rejected by the strong criterion or at the hull;
-  /// if slivers are kept, those that span a void.
+  /// The tetrahedra from which gaps spread. If slivers are kept, these span a void; otherwise the
+  /// strong criterion rejects them, or they are at the hull.
   std::vector<std::size_t> seeds()
   {
     const std::vector<char> isDense = this->denseLeaves();

@@ -270,19 +270,17 @@ private:
     {
       std::array<Vector, 3> before;
       std::array<Vector, 3> after;
-      std::array<std::size_t, 3> merged{};
+      std::array<std::size_t, 3> roots{}; // equal ones become one vertex
       for (std::size_t i = 0; i < 3; ++i)
       {
         const std::size_t vertex = mesh.triangles()[triangle][i];
         const std::size_t part = parts.partOf[vertex];
         const bool isMerged = part != VertexParts::none && areMerged[part] != 0;
-        merged[i] = isMerged ? part : VertexParts::none;
+        roots[i] = isMerged ? parts.verticesOf(part)[0] : vertex;
         before[i] = former[vertex];
         after[i] = isMerged ? means[part] : before[i];
       }
-      const bool vanishes =
-        (merged[0] != VertexParts::none && (merged[0] == merged[1] || merged[0] == merged[2])) ||
-        (merged[1] != VertexParts::none && merged[1] == merged[2]);
+      const bool vanishes = roots[0] == roots[1] || roots[1] == roots[2] || roots[2] == roots[0];
       return !vanishes && dot(cross(before[1] - before[0], before[2] - before[0]),
                             cross(after[1] - after[0], after[2] - after[0])) < 0.0;
     };

@@ -187,9 +187,9 @@ private:
                                                               : vertex;
   }
 
-  /// Whether the triangles around a merged part form a (half) disk, and those that become edges
-  /// leave no gap and no loop: seen from the part, its neighbors are one cycle of at least three
-  /// vertices or, at a border, one path, and each vertex is met once.
+  /// Whether the triangles around a merged part form a (half) disk, without a gap or a loop where
+  /// triangles become edges. Then the neighbors of the part are one cycle of at least three
+  /// vertices or, at a border, one path, and each occurs once.
   /// @param ring reused memory
   bool isSurface(std::size_t part, std::vector<std::size_t>& ring) const
   {

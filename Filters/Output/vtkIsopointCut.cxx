@@ -30,13 +30,13 @@ vtkIsopointCut::vtkIsopointCut(vtkImplicitFunction* function)
     double zero[3] = { 0.0, 0.0, 0.0 };
     function->EvaluateGradient(zero, this->Normal.data());
     this->Level = -function->EvaluateFunction(zero);
-    this->AreOfNormal = true;
+    this->IsOfPlane = true;
   }
 }
 
 void vtkIsopointCut::Check() const
 {
-  if (!this->AreOfNormal)
+  if (!this->IsOfPlane)
   {
     return;
   }
@@ -54,7 +54,7 @@ void vtkIsopointCut::Check() const
 
 vtkIsopointInputState vtkIsopointCut::GetState() const
 {
-  if (!this->AreOfNormal)
+  if (!this->IsOfPlane)
   {
     return { this->Function->GetMTime() };
   }
@@ -65,7 +65,7 @@ vtkIsopointInputState vtkIsopointCut::GetState() const
 
 double vtkIsopointCut::Evaluate(const isopoint::Vector& place) const
 {
-  if (this->AreOfNormal)
+  if (this->IsOfPlane)
   {
     return place[0] * this->Normal[0] + place[1] * this->Normal[1] + place[2] * this->Normal[2];
   }
@@ -86,7 +86,7 @@ vtkSmartPointer<vtkDoubleArray> vtkIsopointCut::FindValues(
     numbers[i] = this->Evaluate(position);
   };
   const auto count = static_cast<std::size_t>(block.GetNumberOfSamples());
-  if (this->AreOfNormal)
+  if (this->IsOfPlane)
   {
     isopoint::forEachIndex(execution, count, evaluate);
   }

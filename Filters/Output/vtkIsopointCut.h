@@ -27,7 +27,7 @@ class vtkIsopointCut
 public:
   explicit vtkIsopointCut(vtkImplicitFunction* function);
 
-  bool IsPlane() const { return this->AreOfNormal; }
+  bool IsPlane() const { return this->IsOfPlane; }
 
   /// The value where the function is 0.
   double GetLevel() const { return this->Level; }
@@ -54,7 +54,7 @@ private:
   double Evaluate(const isopoint::Vector& place) const;
 
   vtkImplicitFunction* Function;
-  bool AreOfNormal = false;
+  bool IsOfPlane = false;
   isopoint::Vector Normal{};
   double Level = 0.0;
 };

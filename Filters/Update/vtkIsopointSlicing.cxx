@@ -40,7 +40,7 @@ namespace
 /// The name of positions among arrays of samples.
 constexpr const char* positionsName = "vtkIsopointPositions";
 
-/// All options that ranks must share.
+/// The options that ranks must share. Of functions other than planes only the class is compared.
 std::string textOf(const vtkIsopointSlicing::Options& options, const vtkIsopointCut& cut)
 {
   std::ostringstream text;

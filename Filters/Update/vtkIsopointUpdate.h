@@ -96,7 +96,7 @@ public:
 
   const vtkIsopointBlocks& GetInput() const { return this->Input; }
 
-  /// The cloud of the blocks [begin, end) of this rank and those that the other ranks name, with
+  /// The cloud of the blocks [begin, end) of this rank and the blocks that other ranks pass, with
   /// one of the kept trees. Collective.
   /// @param values the state of values that are no array of the input
   vtkIsopointCloud& FindCloud(

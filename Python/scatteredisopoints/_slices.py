@@ -97,7 +97,7 @@ def _center_of_bounds(samples: Samples) -> np.ndarray:
 
 
 def _hold_cut(samples: Samples, cut: Cut, report: Any) -> Optional[np.ndarray]:
-    """Makes the values of a function those that the extractor holds. Returns them, unless it had them."""
+    """Loads the values of a function at the samples, unless the extractor has them. Returns what it loaded."""
     if cut.key is not None and samples._held == cut.key:
         return None
     positions = samples._current("positions", samples._positions).astype(np.float64, copy=False)

@@ -106,7 +106,7 @@ def gradient(
 
 @contextlib.contextmanager
 def _loaded(source: Any, values: Any, threads: Optional[int], progress: Progress) -> Iterator[tuple[Samples, Progress]]:
-    """The samples, and the progress of what is to come."""
+    """The samples, and the progress of the work after loading."""
     if values is None:
         raise TypeError("values are missing: numbers of the samples, or the name of an array of a data set")
     with shown_progress(progress, "Probing") as report:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the filters promise that interpolate, derive and slice samples, of the compiled classes and of those in Python:
+"""What the filters that interpolate, derive and slice samples promise, as compiled classes and as classes in Python:
 samples, places, null points, arrays, messages, kept trees. TestPythonFilters.py compares the bytes of both."""
 
 import errno
