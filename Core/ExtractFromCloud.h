@@ -67,6 +67,7 @@ ExtractedIsosurface partOnRank(const Execution& execution, SharedRanks<TSample>&
   result.normals = chosenOf(execution, all.normals, part.vertices);
   result.areGhosts = std::move(part.areGhosts);
   result.triangles = std::move(part.triangles);
+  result.areCaps = chosenOf(execution, all.areCaps, part.triangleNumbers);
   result.ghostTriangles = part.ghostCount;
   result.droppedInGaps = rank == 0 ? all.droppedInGaps : 0;
   return result;
@@ -82,6 +83,7 @@ ExtractedIsosurface findTriangles(const Execution& execution, SampleCloud<TSampl
   ExtractedIsosurface result;
   result.surface = std::move(found.vertices);
   result.triangles = std::move(found.triangles);
+  result.areCaps = std::move(found.areCaps);
   result.droppedInGaps = found.droppedTetrahedra;
   if (request.splats)
   {

@@ -36,6 +36,7 @@ struct ExtractedIsosurface
   std::vector<Splat> splats;              // one per isopoint, or empty if not requested
   std::vector<Vector> normals;            // one per vertex of triangles, or empty
   std::vector<SurfaceTriangle> triangles; // indices of isopoints; empty if not requested
+  std::vector<char> areCaps;              // by triangle; empty without caps
   std::size_t ghostTriangles = 0;         // the last triangles, of other ranks
   /// Crossing edges, or tetrahedra, dropped in gaps. On ranks, each counts once.
   std::size_t droppedInGaps = 0;

@@ -70,6 +70,11 @@ void checkOptions(const Options& options, OptionNaming naming)
         throw UsageError(message.str());
       }
     });
+  if (options.triangles && options.capping && (options.regularize || options.projection != 0))
+  {
+    throw UsageError(naming(option::capping.name) + " requires " + naming(option::regularize.name) +
+                     " off and " + naming(option::projection.name) + " 0.");
+  }
 }
 
 std::vector<double> sortedIsovalues(const std::vector<double>& isovalues)
@@ -98,6 +103,7 @@ Options effectiveOptions(const Options& options)
   {
     effective.regularize = defaults.regularize;
     effective.keepHullSlivers = defaults.keepHullSlivers;
+    effective.capping = defaults.capping;
   }
   return effective;
 }
@@ -111,6 +117,7 @@ ExtractionRequest requestOf(const Options& options)
   request.isosurface.duplicatesCreaseVertices = options.computeNormals;
   request.isosurface.regularizes = options.regularize;
   request.isosurface.keepsHullSlivers = options.keepHullSlivers;
+  request.isosurface.caps = options.capping;
   request.minimumSpacing = options.minimumSpacing;
   request.triangles = options.triangles;
   if (needsSplats(options))

@@ -47,6 +47,7 @@ struct Options
   // Only for triangles:
   bool regularize = true;       // see IsosurfaceRequest::regularizes
   bool keepHullSlivers = false; // see IsosurfaceRequest::keepsHullSlivers
+  bool capping = false;         // see IsosurfaceRequest::caps
 
   /// See IsosurfaceRequest::keepsTetrahedra.
   bool keepTetrahedra = true;
@@ -90,6 +91,7 @@ inline constexpr Option<bool> computeSplats{ "ComputeSplats", &Options::computeS
 inline constexpr Option<bool> regularize{ "Regularize", &Options::regularize, false, true };
 inline constexpr Option<bool> keepHullSlivers{ "KeepHullSlivers", &Options::keepHullSlivers, false,
   true };
+inline constexpr Option<bool> capping{ "Capping", &Options::capping, false, true };
 
 } // namespace option
 
@@ -108,6 +110,7 @@ void forEachOption(const Options& options, const Visitor& visit)
   {
     visit(option::regularize);
     visit(option::keepHullSlivers);
+    visit(option::capping);
   }
   else
   {
@@ -126,7 +129,7 @@ inline std::string sameName(const char* name)
   return name;
 }
 
-/// @throws UsageError if an option is out of range
+/// @throws UsageError if an option is out of range, or does not go with another one
 void checkOptions(const Options& options, OptionNaming naming = sameName);
 
 /// Each isovalue once, ascending. @throws UsageError if one is NaN

@@ -109,7 +109,11 @@ void interpolateComponents(const Execution& execution, const Isosurface& surface
         const std::size_t begin = surface.edgeBegin(i);
         const std::size_t count = surface.edgeBegin(i + 1) - begin;
         const auto valueAt = [&](const IsopointEdge& edge)
-        { return interpolate(attribute(edge.first), attribute(edge.second), edge.parameter); };
+        {
+          return edge.isSample() // infinite values have no differences
+                   ? attribute(edge.first)
+                   : interpolate(attribute(edge.first), attribute(edge.second), edge.parameter);
+        };
         const double value = count == 1 ? valueAt(surface.edges[begin])
                                         : meanOf(count, [&](std::size_t k)
                                             { return valueAt(surface.edges[begin + k]); });

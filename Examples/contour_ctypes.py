@@ -30,7 +30,8 @@ class Options(ctypes.Structure):
         "compute_gradients", "compute_projection_orders", "output_points_precision",
         "number_of_neighbors", "compute_splats")),
         ("angle", ctypes.c_double), ("minimum_spacing", ctypes.c_double),
-        ("keep_tetrahedra", ctypes.c_int32), ("regularize", ctypes.c_int32), ("keep_hull_slivers", ctypes.c_int32)]
+        ("keep_tetrahedra", ctypes.c_int32), ("regularize", ctypes.c_int32), ("keep_hull_slivers", ctypes.c_int32),
+        ("capping", ctypes.c_int32)]
 
 
 def load(path):

@@ -15,3 +15,5 @@ vtkScatteredIsosurfaceFilter::vtkScatteredIsosurfaceFilter()
 
 vtkIsopointOptionMacro(
   vtkScatteredIsosurfaceFilter, Regularize, vtkTypeBool, isopoint::option::regularize);
+vtkIsopointOptionMacro(
+  vtkScatteredIsosurfaceFilter, Capping, vtkTypeBool, isopoint::option::capping);

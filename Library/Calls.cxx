@@ -149,6 +149,7 @@ void forEachMember(const Visitor& visit)
   visit(&C::keep_tetrahedra, &Core::keepTetrahedra);
   visit(&C::regularize, &Core::regularize);
   visit(&C::keep_hull_slivers, &Core::keepHullSlivers);
+  visit(&C::capping, &Core::capping);
 }
 
 /// @param given null for the defaults, or options of this version

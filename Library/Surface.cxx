@@ -144,6 +144,7 @@ isopoint_surface::isopoint_surface(const isopoint::Execution& making,
       });
     first += part.surface.size();
     corners += 3 * part.triangles.size();
+    this->Caps.insert(this->Caps.end(), part.areCaps.begin(), part.areCaps.end());
     // Interpolation needs these parts.
     isopoint::ExtractedIsosurface kept;
     kept.surface.edges = std::move(part.surface.edges);
@@ -172,7 +173,7 @@ std::size_t isopoint_surface::pointCount() const
 
 isopoint_array isopoint_surface::array(std::int32_t id) const
 {
-  const std::array<isopoint_array, ISOPOINT_SPLAT_TRIANGLES + 1> arrays{
+  const std::array<isopoint_array, ISOPOINT_CAPS + 1> arrays{
     asArray(this->Points),
     asArray(this->Isovalues, 1),
     asArray(this->Normals, 3),
@@ -188,6 +189,7 @@ isopoint_array isopoint_surface::array(std::int32_t id) const
     asArray(this->Splats.normals, 3),
     asArray(this->Splats.points, 1),
     asArray(this->Splats.triangles, 3),
+    asArray(this->Caps, 1),
   }; // by isopoint_array_id
   if (id < 0 || static_cast<std::size_t>(id) >= arrays.size())
   {

@@ -71,6 +71,7 @@ private:
   std::vector<std::int64_t> Edges;
   std::vector<double> EdgeParameters;
   std::vector<std::int64_t> Triangles;
+  std::vector<std::uint8_t> Caps;
   std::vector<float> Radii;
   std::vector<float> SplatAxes;
   std::vector<float> SplatPolygons;

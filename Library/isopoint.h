@@ -155,6 +155,9 @@ typedef struct isopoint_options
    * tetrahedra on the convex hull, and vertices of the rim stay when others merge, so that the rim is
    * that of the body. */
   int32_t keep_hull_slivers; /* Default: 0 */
+  /* Triangles only: whether the surface is that of the body of the samples at or above the isovalue,
+   * closed by caps where the samples end. Requires regularize 0 and projection NONE. */
+  int32_t capping; /* Default: 0 */
 } isopoint_options;
 
 /* Sets all options to their defaults. @param size sizeof(isopoint_options) */
@@ -403,7 +406,8 @@ typedef enum isopoint_array_id
   ISOPOINT_GRADIENTS = 3,         /* three float, in units of values per unit of positions */
   ISOPOINT_PROJECTION_ORDERS = 4, /* uint8: the ISOPOINT_PROJECTION_... that moved the point */
   /* For a regularized vertex, merged from several crossings, the edge of the nearest crossing: */
-  ISOPOINT_EDGES = 5,             /* two int64: the samples at its ends, lower number first */
+  ISOPOINT_EDGES = 5,             /* two int64: the samples at its ends, lower number first; for a
+                                     vertex of a cap at a sample, twice the same */
   ISOPOINT_EDGE_PARAMETERS = 6,   /* double: the position of the point on its edge, 0 to 1 */
   ISOPOINT_TRIANGLES = 7,         /* three int64: points, counterclockwise seen from lower values */
   /* The splat of a point p with normal n is a fan of triangles from p to each two consecutive of
@@ -418,7 +422,8 @@ typedef enum isopoint_array_id
   ISOPOINT_SPLAT_VERTICES = 11,       /* three float or double, as points */
   ISOPOINT_SPLAT_VERTEX_NORMALS = 12, /* three float */
   ISOPOINT_SPLAT_VERTEX_POINTS = 13,  /* int64: the point of each vertex */
-  ISOPOINT_SPLAT_TRIANGLES = 14       /* three int64: vertices */
+  ISOPOINT_SPLAT_TRIANGLES = 14,      /* three int64: vertices */
+  ISOPOINT_CAPS = 15                  /* uint8: with capping, whether each triangle is part of a cap */
 } isopoint_array_id;
 
 /* An array of a surface. Its memory is valid until the surface is destroyed or, for a splat mesh,

@@ -25,6 +25,9 @@ struct SampleEdge
   std::uint64_t first;  // the lower id
   std::uint64_t second; // the higher id
 
+  /// Whether both ends are one sample: a vertex of a cap.
+  bool isSample() const { return this->first == this->second; }
+
   bool operator==(const SampleEdge& other) const
   {
     return this->first == other.first && this->second == other.second;
@@ -78,6 +81,10 @@ struct IsosurfaceRequest
   /// slivers on the convex hull, and vertices of the rim stay when others merge, so that the rim is
   /// that of the body (docs/triangles.md).
   bool keepsHullSlivers = false;
+  /// Triangles only: whether the surface is that of the body of the samples at or above the
+  /// isovalue, closed by caps where the samples end (docs/triangles.md). Requires neither fits nor
+  /// regularization.
+  bool caps = false;
 };
 
 /// The edge of an isopoint, between samples on opposite sides of the isovalue.
@@ -102,7 +109,9 @@ std::size_t firstPlaceOf(const SampleTree<TSample>& tree, const EdgeLeaves& leav
     std::min(tree.nodes[leaves.first].begin, tree.nodes[leaves.second].begin));
 }
 
-/// The isopoints of one isovalue, sorted by their edges (first, second); each edge occurs once.
+/// The isopoints of one isovalue, sorted by their edges (first, second). Each edge occurs once,
+/// except in surfaces with caps: there several vertices can have the same edge, and vertices at
+/// samples have both ends of their edge there.
 struct Isosurface
 {
   double isovalue = 0.0;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "Core/Neighbors/AngleCriterion.h"
-#include "Core/Neighbors/NearestSample.h"
 #include "Core/Neighbors/NeighborSearch.h"
 #include "Core/Tree/SampleBounds.h"
 
@@ -31,7 +30,7 @@ public:
   static constexpr double coneCosine = 1.0 / 1.7320508075688772;
 
   /// @param factor positive
-  /// @param count rank of the sample behind an end that defines the spacing: 1 to 6
+  /// @param count rank of the sample behind an end that defines the spacing: 1 to 10
   /// @param cosine of the cone's half angle; 0 for the half-space behind an end, and less than -1
   /// for all around
   GapCriterion(double factor, std::size_t count, double cosine = coneCosine)
@@ -88,7 +87,7 @@ public:
   }
 
 private:
-  static constexpr std::size_t maxWanted = 6;
+  static constexpr std::size_t maxWanted = 10;
 
   /// Positions found behind an end, each once.
   template <class TSample>
@@ -239,50 +238,6 @@ private:
   GapCriterion Weak = GapCriterion::weak();
   GapCriterion Around{ 4.0, 3, 0.0 };
   GapCriterion Beyond{ 0.5, 2 };
-};
-
-/// Rejects edges that span a void. Another criterion rejects such an edge, and no sample is as
-/// close to its middle as a factor times the spacing at one of its ends, the distance to the sixth
-/// nearest position. Long edges of slivers on the convex hull pass, because samples inside are
-/// close to them.
-template <class TCriterion>
-class VoidCriterion
-{
-public:
-  VoidCriterion(const TCriterion& criterion, double factor)
-    : Criterion(criterion)
-    , Factor(factor)
-  {
-  }
-
-  /// As GapCriterion::drops().
-  template <class TSample>
-  bool drops(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& own,
-    const TSample& other) const
-  {
-    // The other criterion takes long for edges of slivers, which are long.
-    return this->isBare(tree, bounds, own, other) &&
-           this->Criterion.drops(tree, bounds, own, other);
-  }
-
-private:
-  /// Whether no sample is near the middle.
-  template <class TSample>
-  bool isBare(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& own,
-    const TSample& other) const
-  {
-    constexpr std::size_t spacingCount = 6;
-    constexpr double allAround = -2.0;
-    const Vector middle = 0.5 * (positionOf(own) + positionOf(other));
-    const double length = offsetBetween(positionOf(own), positionOf(other)).length;
-    const TSample* const nearest = NearestSampleSearch<TSample>(tree, middle, length).search();
-    const double distance = lengthOf(positionOf(*nearest) - middle);
-    const GapCriterion around{ this->Factor * (length / distance), spacingCount, allAround };
-    return around.isDense(tree, bounds, own, other) || around.isDense(tree, bounds, other, own);
-  }
-
-  TCriterion Criterion;
-  double Factor;
 };
 
 } // namespace isopoint

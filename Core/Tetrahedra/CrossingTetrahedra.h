@@ -63,14 +63,68 @@ public:
   /// @throws std::bad_alloc, Aborted, FailedElsewhere, or TreeTooLarge (see NarrowBand)
   std::vector<CrossingTetrahedron<Id>> find(const std::vector<BinaryIndex>& nodes)
   {
-    std::vector<std::size_t> leaves = this->leavesAtSurface(nodes);
-    this->Counts.band = static_cast<std::size_t>(this->Ranks.sum(leaves.size()));
-    this->gather(leaves);
-    if (leaves.empty()) // on all ranks; the kept band may serve the next isovalue
+    if (!this->certifyCrossing(nodes))
     {
       return {};
     }
+    std::vector<CrossingTetrahedron<Id>> found = this->crossing();
+    this->finish();
+    return found;
+  }
+
+  /// For bodies: certifies the crossing tetrahedra and the crossing facets of the hull, the outside
+  /// being below, and then calls explore(), which may use triangulation() and certifyAims().
+  /// Coplanar samples have no body.
+  /// @param nodes as above
+  /// @throws as find(), and what explore throws
+  template <class Explore>
+  void findBody(const std::vector<BinaryIndex>& nodes, const Explore& explore)
+  {
+    this->IsBody = true;
+    if (this->certifyCrossing(nodes))
+    {
+      if (this->triangulation().dimension() == 3)
+      {
+        explore();
+      }
+      this->finish();
+    }
+  }
+
+  /// Certifies the tetrahedra that the triangulation aims at; inserts samples in their spheres,
+  /// which replaces them, until none are left.
+  void certifyAims()
+  {
+    while (!this->Current->isWhole)
+    {
+      const std::size_t openCount = this->triangulation().listOpenAims();
+      if (!this->Ranks.isAny(openCount > 0))
+      {
+        return;
+      }
+      this->certifyListed(openCount);
+      this->insertAllIfSpent();
+    }
+  }
+
+  /// During findBody().
+  PartialTriangulation& triangulation() { return this->Current->triangulation; }
+
+  const TetrahedraCounts& counts() const { return this->Counts; }
+
+private:
+  /// @returns whether the surface may have tetrahedra
+  bool certifyCrossing(const std::vector<BinaryIndex>& nodes)
+  {
+    std::vector<std::size_t> leaves = this->leavesAtSurface(nodes);
+    this->Counts.band = static_cast<std::size_t>(this->Ranks.sum(leaves.size()));
+    this->gather(leaves);
+    if (leaves.empty() && !this->IsBody) // on all ranks; the kept band may serve the next isovalue
+    {
+      return false;
+    }
     this->begin(leaves);
+    this->triangulation().setOutsideBelow(this->IsBody);
     if (!this->Current->isWhole && this->areMany(this->Counts.band))
     {
       this->insertAll();
@@ -84,26 +138,24 @@ public:
       {
         break;
       }
-      if (this->Ranks.isAny(this->isSpent()))
-      {
-        this->insertAll();
-      }
+      this->insertAllIfSpent();
     }
+    return true;
+  }
+
+  /// Keeps the band for the next isovalue if it is small.
+  void finish()
+  {
     this->Counts.size = this->triangulation().size();
     this->Counts.isWhole = this->Current->isWhole;
-    std::vector<CrossingTetrahedron<Id>> found = this->crossing();
     this->Exec.progress(1.0);
     if (this->Current->isSmall(this->Tree.ownCount()))
     {
       this->Kept = std::move(this->Current);
     }
     dropTetrahedra(this->Exec, this->Current);
-    return found;
   }
 
-  const TetrahedraCounts& counts() const { return this->Counts; }
-
-private:
   /// The unit of this rank's coordinates, unless too small for doubles to be exact.
   /// @throws Aborted
   static CoordinateUnit unitOfSamples(const Execution& execution, const SampleTree<TSample>& tree)
@@ -197,8 +249,6 @@ private:
     return touchesOtherSide(this->Tree, leaf, maximumDepth, this->Isovalue, isBelow);
   }
 
-  PartialTriangulation& triangulation() { return this->Current->triangulation; }
-
   /// Adds the leaves of all other ranks, in an order that depends on neither threads nor ranks.
   /// @param leaves in any order, with repetitions
   void gather(std::vector<std::size_t>& leaves)
@@ -207,8 +257,8 @@ private:
     leaves = inTreeOrder(this->Exec, this->Tree, leaves);
   }
 
-  /// Continues with the kept band if it contains at least half of the leaves and not many others;
-  /// otherwise begins a new one. `Kept` is null meanwhile, because updates may fail.
+  /// Continues with the kept band if it contains at least half of the leaves and, except for bodies,
+  /// whose borders change little, not many others; otherwise begins a new one. `Kept` is null meanwhile, because updates may fail.
   /// @param leaves gathered
   void begin(const std::vector<std::size_t>& leaves)
   {
@@ -232,7 +282,8 @@ private:
     forEachInOrder(this->Exec, leaves.size(),
       [&](std::size_t i)
       { known += this->Current->marks.has(leaves[i], bandmarks::inBand) ? 1 : 0; });
-    return 2 * known >= leaves.size() && this->triangulation().size() <= maxTimes * leaves.size();
+    return 2 * known >= leaves.size() &&
+           (this->IsBody || this->triangulation().size() <= maxTimes * leaves.size());
   }
 
   /// @param leaves gathered
@@ -291,7 +342,8 @@ private:
   /// Inserts samples until the band is not coplanar, unless all samples are.
   void spanSpace()
   {
-    while (this->triangulation().size() > 0 && this->triangulation().dimension() < 3)
+    while ((this->IsBody || this->triangulation().size() > 0) &&
+           this->triangulation().dimension() < 3)
     {
       const std::optional<std::size_t> node = this->nodeOffBand();
       std::vector<std::size_t> leaves;
@@ -364,16 +416,30 @@ private:
   /// @returns whether any cells remain uncertified
   bool certify()
   {
-    throwIfAborted(this->Exec);
     const std::size_t openCount = this->triangulation().listOpenCells(this->Exec);
     this->Visits += this->triangulation().cellCount();
+    this->certifyListed(openCount);
+    return this->Ranks.isAny(openCount > 0);
+  }
+
+  /// The same for the listed cells.
+  void certifyListed(std::size_t openCount)
+  {
+    throwIfAborted(this->Exec);
     SearchResult result = this->searchSpheres(openCount);
     if (!this->Ranks.isAny(this->isSpent()))
     {
       this->split(result.unsplit);
       this->gatherAndInsert(std::move(result.leaves));
     }
-    return this->Ranks.isAny(openCount > 0);
+  }
+
+  void insertAllIfSpent()
+  {
+    if (!this->Current->isWhole && this->Ranks.isAny(this->isSpent()))
+    {
+      this->insertAll();
+    }
   }
 
   SearchResult searchSpheres(std::size_t openCount)
@@ -467,6 +533,7 @@ private:
   const double Isovalue;
   std::unique_ptr<KeptTetrahedra>& Kept;
   std::unique_ptr<KeptTetrahedra> Current;
+  bool IsBody = false;
   std::atomic<std::size_t> Visits{ 0 }; // nodes and list entries visited, or equal work
   std::atomic<std::size_t> Searches{ 0 };
   TetrahedraCounts Counts;

@@ -24,6 +24,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -95,6 +96,7 @@ public:
   CellInfo() { --freeCells; }
   CellInfo(const CellInfo& other)
     : isCertified(other.isCertified)
+    , Number(other.Number)
   {
     --freeCells;
   }
@@ -108,7 +110,23 @@ public:
     }
   }
 
+  /// A number below 2^48; 0 at first.
+  std::uint64_t number() const
+  {
+    std::uint64_t number = 0;
+    std::memcpy(&number, this->Number.data(), this->Number.size());
+    return number;
+  }
+  void setNumber(std::uint64_t number)
+  {
+    std::memcpy(this->Number.data(), &number, this->Number.size());
+  }
+
   bool isCertified = false;
+
+private:
+  // Bytes, because CGAL's cell has just enough of them left.
+  std::array<unsigned char, 6> Number{};
 };
 
 /// Nonblocking locks on grid cells. A thread that fails to get a lock releases all of its own and

@@ -45,13 +45,17 @@ CrossingTetrahedron<std::uint64_t> bySides(std::array<VertexInfo, 4> corners)
   if (isOdd)
   {
     // Swaps two corners on one side to restore the orientation.
-    const std::size_t first = result.belowCount == 3 ? 0 : 2;
+    const std::size_t first = result.belowCount >= 3 ? 0 : 2;
     std::swap(corners[first], corners[first + 1]);
   }
   std::transform(corners.begin(), corners.end(), result.corners.begin(),
     [](const VertexInfo& corner) { return corner.leaf(); });
   return result;
 }
+
+/// The corners of the facet opposite to each corner of a tetrahedron, counterclockwise seen from
+/// outside.
+constexpr int outwardFacets[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
 
 Vector positionOf(const Point& point)
 {
@@ -73,6 +77,52 @@ public:
   Triangulation Cells;
   std::vector<Cell> All;    // including cells beyond the hull; empty after insertions
   std::vector<Cell> Listed; // by the last request
+  bool IsOutsideBelow = false;
+
+  /// A cell and the index of a corner: the cell across the facet opposite to it.
+  using Aim = std::pair<Cell, int>;
+  std::vector<Aim> Aims;
+  std::vector<Cell> Explored; // by number
+
+  bool isInfinite(Cell cell) const { return this->Cells.is_infinite(cell); }
+
+  /// The number of an explored tetrahedron. Others may have any number in their info.
+  std::size_t numberOf(Cell cell) const
+  {
+    const auto number = static_cast<std::size_t>(cell->info().number());
+    return number < this->Explored.size() && this->Explored[number] == cell
+             ? number
+             : PartialTriangulation::unexplored;
+  }
+
+  void explore(Cell cell)
+  {
+    cell->info().setNumber(this->Explored.size());
+    this->Explored.push_back(cell);
+  }
+
+  /// Numbers the explored tetrahedra from one on anew, in the order of their corners' places.
+  void orderExplored(
+    std::size_t first, const std::function<std::uint64_t(std::uint64_t leaf)>& placeOf)
+  {
+    std::vector<std::pair<std::array<std::uint64_t, 4>, Cell>> cells;
+    for (std::size_t number = first; number < this->Explored.size(); ++number)
+    {
+      std::array<std::uint64_t, 4> places{};
+      for (std::size_t i = 0; i < 4; ++i)
+      {
+        places[i] = placeOf(this->Explored[number]->vertex(static_cast<int>(i))->info().leaf());
+      }
+      std::sort(places.begin(), places.end());
+      cells.emplace_back(places, this->Explored[number]);
+    }
+    std::sort(cells.begin(), cells.end());
+    this->Explored.resize(first);
+    for (const auto& [places, cell] : cells)
+    {
+      this->explore(cell);
+    }
+  }
 
   /// Lists the cells that pass a test, if the dimension is 3. @returns their number
   template <class Test>
@@ -110,6 +160,10 @@ public:
       if (vertex != this->Cells.infinite_vertex())
       {
         (vertex->info().isBelow() ? hasBelow : hasOther) = true;
+      }
+      else
+      {
+        hasBelow = hasBelow || this->IsOutsideBelow;
       }
     }
     return hasBelow && hasOther;
@@ -154,6 +208,8 @@ PartialTriangulation::~PartialTriangulation()
 void PartialTriangulation::clear(const Execution& execution)
 {
   this->dropLists();
+  this->Inside->Aims.clear();
+  this->Inside->Explored.clear();
   bool isAborted = false;
   std::exception_ptr failure; // destructors ask, which must not throw
   const std::function<void()> ask = [&]()
@@ -202,6 +258,11 @@ void PartialTriangulation::setSides(
       VertexInfo& info = next++->info();
       info = VertexInfo(info.leaf(), isBelow(info.leaf()));
     });
+}
+
+void PartialTriangulation::setOutsideBelow(bool isBelow)
+{
+  this->Inside->IsOutsideBelow = isBelow;
 }
 
 std::size_t PartialTriangulation::size() const
@@ -299,6 +360,130 @@ std::vector<bool> PartialTriangulation::areBelow(const std::vector<Vector>& posi
     below.push_back(hint->vertex(corner)->info().isBelow());
   }
   return below;
+}
+
+std::size_t PartialTriangulation::beginExploring(
+  const Execution& execution, const std::function<std::uint64_t(std::uint64_t leaf)>& placeOf)
+{
+  Internals& inside = *this->Inside;
+  inside.Explored.clear();
+  inside.Aims.clear();
+  inside.list(execution, [&inside](Cell cell) { return inside.isCrossing(cell); });
+  forEachInOrder(execution, inside.Listed.size(),
+    [&inside](std::size_t i)
+    {
+      const Cell cell = inside.Listed[i];
+      const int infinite = inside.infiniteIndexOf(cell);
+      if (infinite < 0)
+      {
+        inside.explore(cell);
+      }
+      else
+      {
+        inside.Aims.emplace_back(cell, infinite);
+      }
+    });
+  if (placeOf)
+  {
+    inside.orderExplored(0, placeOf);
+  }
+  return inside.Explored.size();
+}
+
+void PartialTriangulation::aimAcross(const std::vector<ExploredFacet>& facets)
+{
+  this->Inside->Aims.clear();
+  for (const ExploredFacet& facet : facets)
+  {
+    this->Inside->Aims.emplace_back(this->Inside->Explored[facet.tetrahedron], facet.corner);
+  }
+}
+
+std::size_t PartialTriangulation::listOpenAims()
+{
+  std::vector<Cell>& open = this->Inside->Listed;
+  open.clear();
+  for (const auto& [cell, corner] : this->Inside->Aims)
+  {
+    const Cell aim = cell->neighbor(corner);
+    if (!aim->info().isCertified && !this->Inside->isInfinite(aim))
+    {
+      open.push_back(aim);
+    }
+  }
+  std::sort(open.begin(), open.end());
+  open.erase(std::unique(open.begin(), open.end()), open.end());
+  return open.size();
+}
+
+std::size_t PartialTriangulation::exploreAims(
+  const std::function<std::uint64_t(std::uint64_t leaf)>& placeOf)
+{
+  Internals& inside = *this->Inside;
+  const std::size_t first = inside.Explored.size();
+  for (const auto& [cell, corner] : inside.Aims)
+  {
+    const Cell aim = cell->neighbor(corner);
+    if (!inside.isInfinite(aim) && inside.numberOf(aim) == unexplored)
+    {
+      inside.explore(aim);
+    }
+  }
+  inside.Aims.clear();
+  if (placeOf)
+  {
+    inside.orderExplored(first, placeOf);
+  }
+  return inside.Explored.size();
+}
+
+std::size_t PartialTriangulation::across(const ExploredFacet& facet) const
+{
+  const Cell cell = this->Inside->Explored[facet.tetrahedron]->neighbor(facet.corner);
+  return this->Inside->isInfinite(cell) ? outside : this->Inside->numberOf(cell);
+}
+
+FacetCorners PartialTriangulation::cornersOf(const ExploredFacet& facet) const
+{
+  FacetCorners corners{};
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const VertexInfo& info = this->Inside->Explored[facet.tetrahedron]
+                               ->vertex(outwardFacets[facet.corner][i])
+                               ->info();
+    corners.leaves[i] = info.leaf();
+    corners.areBelow[i] = info.isBelow();
+  }
+  return corners;
+}
+
+CrossingTetrahedron<std::uint64_t> PartialTriangulation::exploredTetrahedron(
+  std::size_t tetrahedron) const
+{
+  const Cell cell = this->Inside->Explored[tetrahedron];
+  return bySides({ cell->vertex(0)->info(), cell->vertex(1)->info(), cell->vertex(2)->info(),
+    cell->vertex(3)->info() });
+}
+
+ExploredFacet PartialTriangulation::wedgeEnd(
+  const ExploredFacet& facet, std::size_t side, const std::vector<char>& areInGap) const
+{
+  const auto isInBody = [&](Cell cell)
+  {
+    const std::size_t number = this->Inside->numberOf(cell);
+    return !this->Inside->isInfinite(cell) && (number == unexplored || !areInGap[number]);
+  };
+  Cell cell = this->Inside->Explored[facet.tetrahedron];
+  // The wedge lies between the facet just passed, opposite to `passed`, and that opposite to `next`.
+  Vertex passed = cell->vertex(facet.corner);
+  Vertex next = cell->vertex(outwardFacets[facet.corner][(side + 2) % 3]);
+  while (isInBody(cell->neighbor(cell->index(next))))
+  {
+    const Cell last = cell;
+    cell = cell->neighbor(cell->index(next));
+    next = std::exchange(passed, this->Inside->Cells.mirror_vertex(last, last->index(next)));
+  }
+  return { this->Inside->numberOf(cell), cell->index(next) };
 }
 
 std::size_t PartialTriangulation::listCrossingTetrahedra(const Execution& execution)

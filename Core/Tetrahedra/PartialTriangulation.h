@@ -24,14 +24,35 @@ struct BandSite
   bool isBelow;       // the isovalue
 };
 
-/// A tetrahedron with corners on both sides of the isovalue.
+/// A tetrahedron, mostly with corners on both sides of the isovalue.
 template <class TId>
 struct CrossingTetrahedron
 {
   /// Node indices of the leaves at the corners, those below first, in positive orientation.
   std::array<TId, 4> corners;
-  std::uint8_t belowCount; // 1 to 3
+  std::uint8_t belowCount; // 1 to 3 if it is crossing
   bool isAtHull;           // whether a crossing facet lies on the convex hull
+};
+
+/// A facet of an explored tetrahedron, opposite to a corner.
+struct ExploredFacet
+{
+  std::size_t tetrahedron;
+  int corner; // 0 to 3
+
+  bool operator==(const ExploredFacet& other) const
+  {
+    return this->tetrahedron == other.tetrahedron && this->corner == other.corner;
+  }
+};
+
+/// The corners of a facet, counterclockwise seen from outside its tetrahedron.
+struct FacetCorners
+{
+  std::array<std::uint64_t, 3> leaves;
+  std::array<bool, 3> areBelow;
+
+  bool isAllBelow() const { return this->areBelow[0] && this->areBelow[1] && this->areBelow[2]; }
 };
 
 /// The Delaunay tetrahedralization of a growing subset of the samples, by CGAL. Predicates are
@@ -40,7 +61,12 @@ struct CrossingTetrahedron
 /// set of positions.
 ///
 /// A cell is a tetrahedron, or a facet of the convex hull with the half-space beyond it. A cell is
-/// *crossing* if some corners are below the isovalue and others are not.
+/// *crossing* if some corners are below the isovalue and others are not. For bodies, the outside
+/// counts as below: then facets of the hull are crossing if a corner is not below.
+///
+/// *Explored* tetrahedra are those reached from crossing cells: first the crossing ones, then, step
+/// by step, those across some of their facets. They are certified, so insertions do not change
+/// them, and they have numbers from 0 on.
 class PartialTriangulation
 {
 public:
@@ -64,6 +90,9 @@ public:
   /// Sets the side of the isovalue of each sample. O(samples)
   /// @throws Aborted, after which some are set
   void setSides(const Execution& execution, const std::function<bool(std::uint64_t leaf)>& isBelow);
+
+  /// Whether the outside counts as below; false at first.
+  void setOutsideBelow(bool isBelow);
 
   std::size_t size() const;
 
@@ -95,6 +124,41 @@ public:
   /// For each position in no crossing cell, whether the corners of its cell are below the isovalue.
   /// From any thread. Fastest if consecutive positions are close.
   std::vector<bool> areBelow(const std::vector<Vector>& positions) const;
+
+  /// Explores the crossing tetrahedra, which must be certified, and nothing else; aims at the
+  /// tetrahedra behind crossing facets of the hull. @returns the number of tetrahedra
+  /// @param placeOf(leaf) if not null, new tetrahedra are numbered in the order of these places
+  /// @throws std::bad_alloc, Aborted
+  std::size_t beginExploring(
+    const Execution& execution, const std::function<std::uint64_t(std::uint64_t leaf)>& placeOf);
+
+  /// Aims at the tetrahedra across facets of explored ones.
+  void aimAcross(const std::vector<ExploredFacet>& facets);
+
+  /// Lists the tetrahedra aimed at that are not certified as open cells, once each.
+  /// @returns their number
+  std::size_t listOpenAims();
+
+  /// Explores the tetrahedra aimed at, which must be certified. @returns the number of all explored
+  /// @param placeOf see beginExploring()
+  std::size_t exploreAims(const std::function<std::uint64_t(std::uint64_t leaf)>& placeOf);
+
+  /// What is across a facet: an explored tetrahedron, or one of these.
+  static constexpr std::size_t outside = ~std::size_t{ 0 };
+  static constexpr std::size_t unexplored = outside - 1;
+
+  /// The tetrahedron across a facet, `unexplored`, or `outside`. From any thread.
+  std::size_t across(const ExploredFacet& facet) const;
+
+  FacetCorners cornersOf(const ExploredFacet& facet) const;
+  CrossingTetrahedron<std::uint64_t> exploredTetrahedron(std::size_t tetrahedron) const;
+
+  /// Walks around an edge of a facet at the border of a body, through the body, to the facet of its
+  /// border that bounds the same wedge. From any thread. O(tetrahedra at the edge)
+  /// @param side of the facet: from corner `side` to the next
+  /// @param areInGap explored tetrahedra that are not in the body
+  ExploredFacet wedgeEnd(
+    const ExploredFacet& facet, std::size_t side, const std::vector<char>& areInGap) const;
 
   /// Lists the crossing tetrahedra instead of open cells, in any order. @returns their number.
   /// O(cells)

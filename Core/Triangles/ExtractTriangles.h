@@ -10,6 +10,8 @@
 #include "Core/Extraction/NarrowBand.h"
 #include "Core/Tetrahedra/CrossingTetrahedra.h"
 #include "Core/Tetrahedra/KeptTetrahedra.h"
+#include "Core/Triangles/BodySurface.h"
+#include "Core/Triangles/BodyTetrahedra.h"
 #include "Core/Triangles/CreaseMesh.h"
 #include "Core/Triangles/EdgeFlipping.h"
 #include "Core/Triangles/EdgeTriangles.h"
@@ -32,6 +34,7 @@ struct TriangleSurface
 {
   Isosurface vertices; // of crossing Delaunay edges
   std::vector<SurfaceTriangle> triangles;
+  std::vector<char> areCaps;         // by triangle; empty without caps
   std::size_t droppedTetrahedra = 0; // in gaps
 };
 
@@ -67,6 +70,10 @@ public:
     {
       return {};
     }
+    if (this->Request.caps)
+    {
+      return this->extractBody();
+    }
     constexpr double fitsEnd = 0.9; // shares of the progress
     const double mergingBegin = this->Request.fit ? 0.6 : 0.85;
     const double fitsBegin = this->hasCreases() ? 0.8 : mergingBegin + 0.05;
@@ -91,6 +98,30 @@ public:
     {
       return {};
     }
+    return this->withFinder(execution,
+      [](const Execution& /*part*/, CrossingTetrahedraFinder<TSample, TRanks>& finder,
+        const std::vector<BinaryIndex>& nodes) { return finder.find(nodes); });
+  }
+
+  /// The tetrahedra and facets that the surface of the body consists of.
+  BodyTetrahedra<Id> bodyTetrahedra(const Execution& execution)
+  {
+    return this->withFinder(execution,
+      [this](const Execution& part, CrossingTetrahedraFinder<TSample, TRanks>& finder,
+        const std::vector<BinaryIndex>& nodes)
+      {
+        return BodyFinder<TSample, TRanks>(part, this->Tree, this->Ranks, finder)
+          .find(nodes, this->Request.dropsGaps);
+      });
+  }
+
+  const TetrahedraCounts& counts() const { return this->Counts; }
+
+private:
+  /// @returns find(execution, finder, nodes at the isosurface)
+  template <class Find>
+  auto withFinder(const Execution& execution, const Find& find)
+  {
     constexpr double bandEnd = 0.3; // share of the progress
     const std::vector<BinaryIndex> nodes =
       NarrowBand<TSample>(this->Tree, this->Request.isovalue, partOf(execution, 0.0, bandEnd))
@@ -98,7 +129,7 @@ public:
     const Execution part = partOf(execution, bandEnd, 1.0);
     CrossingTetrahedraFinder<TSample, TRanks> finder(
       part, this->Tree, this->Ranks, this->Values, this->Request.isovalue, this->Kept);
-    std::vector<CrossingTetrahedron<Id>> found = finder.find(nodes);
+    auto found = find(part, finder, nodes);
     if (!this->Request.keepsTetrahedra)
     {
       dropTetrahedra(execution, this->Kept);
@@ -107,9 +138,30 @@ public:
     return found;
   }
 
-  const TetrahedraCounts& counts() const { return this->Counts; }
+  TriangleSurface extractBody()
+  {
+    constexpr double bodyEnd = 0.8; // shares of the progress
+    constexpr double meshEnd = 0.95;
+    const BodyTetrahedra<Id> body = this->bodyTetrahedra(partOf(this->Exec, 0.0, bodyEnd));
+    const Execution part = partOf(this->Exec, bodyEnd, meshEnd);
+    BodyTriangles<TSample> found =
+      BodySurface<TSample>(part, this->Tree, this->Values, this->Request.isovalue, body).find();
+    ExtractionContext<TSample> context(this->Tree, this->Neighborhoods, this->Request.isovalue);
+    std::vector<LocalFit> fits;
+    if (this->Request.fit && this->Request.fit->highest)
+    {
+      fits = this->fitTo(part, context, found.mesh, {});
+    }
+    TriangleSurface surface;
+    surface.vertices = placeIsopoints<TSample>(partOf(this->Exec, meshEnd, 1.0), context,
+      { found.mesh.edges, {}, found.mesh.positions }, std::move(fits), false);
+    surface.triangles = std::move(found.mesh.triangles);
+    surface.areCaps = std::move(found.areCaps);
+    surface.droppedTetrahedra = body.droppedCount;
+    surface.vertices.coincident = coincidentEnds(this->Exec, this->Tree, surface.vertices.leaves);
+    return surface;
+  }
 
-private:
   MarchedTriangles<TSample> march(const Execution& execution)
   {
     constexpr double tetrahedraEnd = 0.8; // shares of the progress

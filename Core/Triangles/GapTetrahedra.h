@@ -6,6 +6,7 @@
 #include "Core/Base/Offset.h"
 #include "Core/Neighbors/GapCriterion.h"
 #include "Core/Neighbors/GapSpread.h"
+#include "Core/Neighbors/VoidCriterion.h"
 #include "Core/Tetrahedra/PartialTriangulation.h"
 
 #include <algorithm>
@@ -152,7 +153,7 @@ public:
   {
     if (this->KeepsHullSlivers)
     {
-      this->Spread.spread(VoidCriterion(RimCriterion(), weakVoidFactor), this->seeds());
+      this->Spread.spread(weakVoids(), this->seeds());
     }
     else
     {
@@ -163,10 +164,6 @@ public:
 
 private:
   static constexpr std::size_t smallestPiece = 8; // of tetrahedra next to a gap
-  // See VoidCriterion.
-  static constexpr double strongVoidFactor = 1.5;
-  static constexpr double weakVoidFactor = 1.0;
-
   /// The tetrahedra from which gaps spread. If slivers are kept, these span a void; otherwise the
   /// strong criterion rejects them, or they are at the hull.
   std::vector<std::size_t> seeds()
@@ -181,8 +178,7 @@ private:
       });
     if (this->KeepsHullSlivers)
     {
-      return this->Spread.rejectedAmong(
-        VoidCriterion(GapCriterion::strong(), strongVoidFactor), candidates);
+      return this->Spread.rejectedAmong(strongVoids(), candidates);
     }
     std::vector<std::size_t> seeds = this->Spread.rejectedAmong(GapCriterion::strong(), candidates);
     const std::vector<std::size_t> atHull = itemsThat(this->Exec, this->Tetrahedra.size(),

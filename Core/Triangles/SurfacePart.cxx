@@ -5,6 +5,7 @@
 #include "Core/Triangles/SurfaceMesh.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace isopoint
 {
@@ -60,6 +61,7 @@ SurfacePart partOfRank(const Execution& execution, const std::vector<SurfaceTria
       const auto& [a, b, c] = triangles[chosen[i]];
       part.triangles[i] = { places[a], places[b], places[c] };
     });
+  part.triangleNumbers = std::move(chosen);
   return part;
 }
 

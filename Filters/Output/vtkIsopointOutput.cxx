@@ -104,6 +104,20 @@ vtkSmartPointer<vtkCellArray> vtkNewIsopointTriangles(
   return newCells(3, connectivity);
 }
 
+void vtkAddIsopointCaps(
+  const std::vector<isopoint::ExtractedIsosurface>& surfaces, vtkPolyData* output)
+{
+  vtkNew<vtkUnsignedCharArray> caps;
+  caps->SetName("IsCap");
+  vtkAllocateTuples(caps, static_cast<vtkIdType>(isopoint::countTriangles(surfaces)));
+  unsigned char* next = caps->GetPointer(0);
+  for (const isopoint::ExtractedIsosurface& extracted : surfaces)
+  {
+    next = std::copy(extracted.areCaps.begin(), extracted.areCaps.end(), next);
+  }
+  output->GetCellData()->AddArray(caps);
+}
+
 void vtkAddIsopointGhosts(
   const std::vector<isopoint::ExtractedIsosurface>& surfaces, vtkPolyData* output)
 {

@@ -32,6 +32,11 @@ vtkSmartPointer<vtkCellArray> vtkNewIsopointVertices(vtkIdType count);
 /// @throws std::bad_alloc
 vtkSmartPointer<vtkCellArray> vtkNewIsopointPolyline(vtkIdType count);
 
+/// Adds the cell array IsCap to triangles with caps.
+/// @throws std::bad_alloc
+void vtkAddIsopointCaps(
+  const std::vector<isopoint::ExtractedIsosurface>& surfaces, vtkPolyData* output);
+
 /// The triangles of all surfaces, on the points of vtkNewIsopointPositions().
 /// @throws std::bad_alloc
 vtkSmartPointer<vtkCellArray> vtkNewIsopointTriangles(

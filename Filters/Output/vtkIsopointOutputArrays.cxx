@@ -176,9 +176,14 @@ void vtkAddContouredArray(
   vtkIdType tuple = 0;
   for (const ExtractedIsosurface& extracted : surfaces)
   {
-    for (std::size_t i = 0; i < extracted.surface.size(); ++i)
+    const Isosurface& surface = extracted.surface;
+    const isopoint::CoincidentAttribute valueAt(surface, [contoured](std::uint64_t sample)
+      { return contoured->GetComponent(static_cast<vtkIdType>(sample), 0); });
+    for (std::size_t i = 0; i < surface.size(); ++i)
     {
-      result->SetComponent(tuple++, 0, extracted.surface.isovalue);
+      const IsopointEdge& edge = surface.edgeOf(i);
+      result->SetComponent(
+        tuple++, 0, edge.isSample() ? valueAt(edge.first) : surface.isovalue);
     }
   }
   vtkAddAttribute(vtkDataSetAttributes::SCALARS, result, output);

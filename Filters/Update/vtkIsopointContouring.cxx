@@ -186,6 +186,10 @@ void vtkIsopointContouring::FillOutput(const vtkIsopointEndSamples& samples,
   if (this->Options.Core.triangles)
   {
     output->SetPolys(vtkNewIsopointTriangles(this->Update.GetExecution(), surfaces));
+    if (this->Options.Core.capping)
+    {
+      vtkAddIsopointCaps(surfaces, output);
+    }
   }
   else
   {

@@ -30,6 +30,9 @@ class Isosurface:
     """What splats look like: SplatAxis, shape (n, 3), and SplatPolygon, (n, 40), five numbers for each of eight
     corners; empty if splats were not computed."""
 
+    cell_arrays: Mapping[str, np.ndarray]
+    """Arrays of the triangles by name: with capping IsCap, 1 in caps and 0 in the isosurface."""
+
     def __init__(
         self,
         points: np.ndarray,
@@ -39,11 +42,13 @@ class Isosurface:
         make_polydata: Callable[[Isosurface], Any],
         polydata: Any = None,
         threads: Optional[int] = None,
+        cell_arrays: Optional[Mapping[str, np.ndarray]] = None,
     ):
         self.points = points
         self.triangles = triangles
         self.arrays = arrays
         self.splat_shapes = splat_shapes
+        self.cell_arrays = cell_arrays or {}
         self._make_polydata = make_polydata
         self._polydata = polydata
         self._threads = threads

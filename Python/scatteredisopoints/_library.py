@@ -19,7 +19,7 @@ from ._paths import LIBRARY
 # isopoint_array_id
 (POINTS, ISOVALUES, NORMALS, GRADIENTS, PROJECTION_ORDERS, EDGES, EDGE_PARAMETERS, TRIANGLES, RADII,
  SPLAT_AXES, SPLAT_POLYGONS, SPLAT_VERTICES, SPLAT_VERTEX_NORMALS, SPLAT_VERTEX_POINTS,
- SPLAT_TRIANGLES) = range(15)
+ SPLAT_TRIANGLES, CAPS) = range(16)
 
 # isopoint_type
 TYPES = tuple(np.dtype(kind) for kind in ("f4", "f8", "i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8"))
@@ -117,7 +117,7 @@ class Options(ctypes.Structure):
         "compute_gradients", "compute_projection_orders", "output_points_precision",
         "number_of_neighbors", "compute_splats")),
         ("angle", c_double), ("minimum_spacing", c_double), ("keep_tetrahedra", c_int32),
-        ("regularize", c_int32), ("keep_hull_slivers", c_int32)]
+        ("regularize", c_int32), ("keep_hull_slivers", c_int32), ("capping", c_int32)]
 
     def __init__(self):
         super().__init__()

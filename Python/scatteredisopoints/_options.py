@@ -24,7 +24,7 @@ CONSTANTS = {
 }
 
 _OF_POINTS = ("angle", "compute_splats", "minimum_spacing", "number_of_neighbors")
-_OF_TRIANGLES = ("regularize",)
+_OF_TRIANGLES = ("capping", "regularize")
 OF_SLICES = ("regularize", "drop_gaps", "output_points_precision")
 _NOT_OPTIONS = ("size", "triangles", "keep_tetrahedra", "keep_hull_slivers")
 _PARAMETERS = ("arrays", "isovalues", "progress", "threads", "triangles")  # of contour(), which are no options
@@ -146,7 +146,7 @@ def switch(name: str, value: Any) -> bool:
 
 def number_of(name: str, value: Any, default: Any) -> Any:
     """Converts a value to the type of the default. Raises ValueError for values that are no numbers."""
-    if name.startswith(("compute_", "drop_", "regularize")):
+    if name.startswith(("capping", "compute_", "drop_", "regularize")):
         return int(switch(name, value))
     try:
         if isinstance(value, (bool, np.bool_, str)):

@@ -77,6 +77,8 @@ class PolyDataMaker:
             shapes = as_vtk(package, name, array)
             shapes.GetInformation().Set(core.vtkAbstractArray.GUI_HIDE(), 1)
             data.GetCellData().AddArray(shapes)
+        for name, array in surface.cell_arrays.items():
+            data.GetCellData().AddArray(as_vtk(package, name, array))
         if "SplatAxis" in surface.splat_shapes:
             data.GetCellData().SetActiveVectors("SplatAxis")  # transforms of points rotate them
         if self.field_data is not None:

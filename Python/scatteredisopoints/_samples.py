@@ -271,7 +271,7 @@ class Samples:
                 messages.append(_library.Message(
                     f'The isovalues replace the array "{name}" of the data set: rename that.',
                     is_warning=True, cause=f"isovalues replace {name}"))
-            found[name] = _library.view(surface, _library.ISOVALUES).astype(value_type, copy=False)
+            found[name] = self._contoured(surface, chosen, callbacks.get("is_canceled")).astype(value_type, copy=False)
         computed = _computed(surface, chosen)
         messages += [_library.Message(
             f'The computed array "{name}" replaces the input array of this name. To keep that, rename'
@@ -455,6 +455,15 @@ class Samples:
                               array if array.ndim < 3 else array.reshape(len(array), -1), found[name])
         return found
 
+    def _contoured(self, surface, options: _library.Options, is_canceled) -> np.ndarray:
+        """The isovalues; at samples of caps the values of these."""
+        isovalues = _library.view(surface, _library.ISOVALUES)
+        if not options.capping:
+            return isovalues
+        values = np.asarray(readable("values", as_numpy(self._values)), np.float64)
+        at_samples = np.equal(*_library.view(surface, _library.EDGES).T)
+        return np.where(at_samples, self._interpolated(surface, {"": values}, is_canceled)[""], isovalues)
+
     def _as_isosurface(self, surface, arrays, options: _library.Options, threads: Optional[int]) -> Isosurface:
         triangles, shapes = None, {}
         if options.triangles:
@@ -463,7 +472,9 @@ class Samples:
             shapes = {"SplatAxis": _library.view(surface, _library.SPLAT_AXES),
                       "SplatPolygon": _library.view(surface, _library.SPLAT_POLYGONS)}
         maker = self._maker if options.compute_normals else replace(self._maker, normals=None)
-        return Isosurface(_library.view(surface, _library.POINTS), triangles, arrays, shapes, maker, threads=threads)
+        caps = {"IsCap": _library.view(surface, _library.CAPS)} if options.capping else {}
+        return Isosurface(_library.view(surface, _library.POINTS), triangles, arrays, shapes, maker, threads=threads,
+                          cell_arrays=caps)
 
 
 _all: weakref.WeakSet[Samples] = weakref.WeakSet()

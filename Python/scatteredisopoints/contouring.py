@@ -54,7 +54,9 @@ def contour(
         compute_projection_orders=True, compute_normals=False, compute_scalars=False, keep_tree=False,
         normal_method="NORMALS_FROM_PLANES" (or "NORMALS_FROM_FIELD"),
         output_points_precision="SINGLE_PRECISION" (or "DOUBLE_PRECISION"). Of points only: minimum_spacing=0.5,
-        compute_splats=False, angle=54.7, number_of_neighbors=12. Of triangles only: regularize=False.
+        compute_splats=False, angle=54.7, number_of_neighbors=12. Of triangles only: regularize=False, and
+        capping=True (with regularize=False and projection=None), which closes the body of the samples at or above
+        the isovalue where they end.
 
         With MPI, each process contours its own samples unless `controller` is given, which needs the compiled
         VTK classes: then all ranks must make this call, and only the first one raises errors.
