@@ -130,6 +130,10 @@ private:
       this->insertAll();
     }
     this->insert(leaves);
+    if (this->IsBody)
+    {
+      this->gatherAndInsert(this->cornerLeaves());
+    }
     this->spanSpace();
     while (!this->Current->isWhole && this->triangulation().dimension() == 3)
     {
@@ -339,11 +343,53 @@ private:
     this->Current->isWhole = true;
   }
 
+  /// This rank's leaves in the corners of the tree: the hull grows from them.
+  std::vector<std::size_t> cornerLeaves()
+  {
+    constexpr unsigned cornerCount = 8;
+    std::vector<std::size_t> ends;
+    std::vector<std::size_t> unsplit;
+    do
+    {
+      this->split(unsplit);
+      ends.clear();
+      unsplit.clear();
+      for (unsigned corner = 0; corner < cornerCount && this->Tree.ownCount() > 0; ++corner)
+      {
+        ends.push_back(this->endInCorner(corner));
+        if (!this->Tree.nodes[ends.back()].isLeaf)
+        {
+          unsplit.push_back(ends.back());
+        }
+      }
+      std::sort(unsplit.begin(), unsplit.end());
+      unsplit.erase(std::unique(unsplit.begin(), unsplit.end()), unsplit.end());
+    } while (!unsplit.empty());
+    return ends;
+  }
+
+  /// A node of this rank without children.
+  /// @param corner bits of the axes on whose upper side it is
+  std::size_t endInCorner(unsigned corner) const
+  {
+    std::size_t end = SampleTree<TSample>::rootNode;
+    while (this->Tree.nodes[end].isSplit())
+    {
+      const Node<TSample>& node = this->Tree.nodes[end];
+      const bool isUpper = (corner >> node.axis) % 2 != 0;
+      end = this->Tree.child(node, isUpper);
+      if (!this->Tree.hasOwn(this->Tree.nodes[end]))
+      {
+        end = this->Tree.child(node, !isUpper);
+      }
+    }
+    return end;
+  }
+
   /// Inserts samples until the band is not coplanar, unless all samples are.
   void spanSpace()
   {
-    while ((this->IsBody || this->triangulation().size() > 0) &&
-           this->triangulation().dimension() < 3)
+    while (this->triangulation().size() > 0 && this->triangulation().dimension() < 3)
     {
       const std::optional<std::size_t> node = this->nodeOffBand();
       std::vector<std::size_t> leaves;
