@@ -280,13 +280,14 @@ private:
 
   bool isOfUse(const std::vector<std::size_t>& leaves)
   {
+    constexpr std::size_t minShare = 4; // one of so many
     constexpr std::size_t maxTimes = 3;
     this->Current->marks.grow(this->Tree.nodes.size());
     std::size_t known = 0;
     forEachInOrder(this->Exec, leaves.size(),
       [&](std::size_t i)
       { known += this->Current->marks.has(leaves[i], bandmarks::inBand) ? 1 : 0; });
-    return 2 * known >= leaves.size() &&
+    return minShare * known >= leaves.size() &&
            (this->IsBody || this->triangulation().size() <= maxTimes * leaves.size());
   }
 
@@ -497,7 +498,8 @@ private:
       this->Exec, openCount, 8 * grain, grain,
       [&](std::size_t begin, std::size_t end)
       {
-        SphereSearch<TSample> search(this->Tree, this->triangulation(), this->Current->marks);
+        SphereSearch<TSample> search(
+          this->Tree, this->triangulation(), this->Current->marks, this->Current->boxes);
         std::vector<std::size_t> leaves;
         std::size_t visits = 0;
         for (std::size_t i = begin; i < end && !this->isSpent(); ++i)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "Core/Base/ConcurrentMemo.h"
 #include "Core/Base/Execution.h"
+#include "Core/Base/Region.h"
 #include "Core/Tetrahedra/PartialTriangulation.h"
 #include "Core/Tree/NodeMarks.h"
 
@@ -33,8 +35,9 @@ struct KeptTetrahedra
   }
 
   PartialTriangulation triangulation;
-  NodeMarks marks;      // see bandmarks
-  bool isWhole = false; // whether all samples are in it
+  NodeMarks marks;              // see bandmarks
+  ConcurrentMemo<Region> boxes; // see SphereSearch
+  bool isWhole = false;         // whether all samples are in it
 };
 
 /// Sets a band to null. @throws Aborted, after which it is null, too

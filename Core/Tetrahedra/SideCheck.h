@@ -18,7 +18,7 @@ namespace isopoint
 /// Once all crossing cells are certified, finds samples whose values are not on the side of the
 /// isovalue that the band's surface indicates at their positions. They show pieces of the surface
 /// where the band has no samples.
-/// Tree regions that no sphere of a crossing tetrahedron reached do not meet the surface: one
+/// Boxes of samples that no sphere of a crossing tetrahedron reached do not meet the surface: one
 /// sample represents all in them. In a process group, each rank checks its own samples.
 template <class TSample>
 class SideCheck
@@ -34,7 +34,7 @@ public:
   {
   }
 
-  /// @returns leaves to insert and other nodes to split, with repetitions
+  /// @returns leaves to insert and other nodes, of few samples, to split; with repetitions
   /// @throws std::bad_alloc, Aborted
   /// Complexity: O(nodes), plus one location per reached leaf and per maximal unreached node
   std::vector<std::size_t> find(double isovalue)
@@ -43,32 +43,29 @@ public:
     const Summary root = this->collect(SampleTree<TSample>::rootNode, false);
     this->addUnlessKnown(root, SampleTree<TSample>::rootNode);
     constexpr std::size_t grain = 512;
-    std::vector<std::size_t> wrong =
-      collected<std::size_t>(this->Exec, { this->Places.size(), 8 * grain, grain },
-        [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
+    return collected<std::size_t>(this->Exec, { this->Places.size(), 8 * grain, grain },
+      [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
+      {
+        std::vector<Vector> positions;
+        for (std::size_t i = begin; i < end; ++i)
         {
-          std::vector<Vector> positions;
-          for (std::size_t i = begin; i < end; ++i)
+          positions.push_back(positionOf(this->Tree.samples[this->Places[i].sample]));
+        }
+        const std::vector<bool> below = this->Band.areBelow(positions);
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          if (below[i - begin] != this->Places[i].isBelow)
           {
-            positions.push_back(positionOf(this->Tree.samples[this->Places[i].sample]));
+            found.push_back(this->Places[i].node);
           }
-          const std::vector<bool> below = this->Band.areBelow(positions);
-          for (std::size_t i = begin; i < end; ++i)
-          {
-            if (below[i - begin] != this->Places[i].isBelow)
-            {
-              found.push_back(this->Places[i].node);
-            }
-          }
-        });
-    wrong.insert(wrong.end(), this->Unsplit.begin(), this->Unsplit.end());
-    return wrong;
+        }
+      });
   }
 
 private:
   struct Summary
   {
-    bool isClear; // no sphere reached it, and all its samples are on one side
+    bool isClear; // no sphere reached its samples' bounding box, and all are on one side
     bool isKnown; // one of its samples is in the band
     bool isBelow; // the side, if clear
   };
@@ -100,7 +97,8 @@ private:
     }
     const Summary lower = this->collect(node.lowerNode(), isReached);
     const Summary upper = this->collect(node.upperNode(), isReached);
-    if (lower.isClear && upper.isClear && lower.isBelow == upper.isBelow)
+    if (lower.isClear && upper.isClear && lower.isBelow == upper.isBelow &&
+        !this->Marks.has(nodeIndex, bandmarks::parted))
     {
       return { true, lower.isKnown || upper.isKnown, lower.isBelow };
     }
@@ -121,11 +119,7 @@ private:
     {
       return { true, isKnown, isBelow };
     }
-    if (!node.isLeaf && node.count() > fewSamples)
-    {
-      this->Unsplit.push_back(nodeIndex);
-    }
-    else if (!isKnown)
+    if (!isKnown)
     {
       for (std::size_t i = node.begin; i < node.positionsEnd(); ++i)
       {
@@ -157,7 +151,6 @@ private:
   double Isovalue = 0.0;
   std::size_t Visits = 0; // of nodes
   std::vector<Place> Places;
-  std::vector<std::size_t> Unsplit;
 };
 
 } // namespace isopoint

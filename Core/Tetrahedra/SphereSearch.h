@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "Core/Base/ConcurrentMemo.h"
 #include "Core/Base/Region.h"
 #include "Core/Tetrahedra/PartialTriangulation.h"
 #include "Core/Tetrahedra/SphereFunction.h"
 #include "Core/Tree/NodeMarks.h"
+#include "Core/Tree/SampleBounds.h"
 #include "Core/Tree/SampleTree.h"
+#include "Core/Tree/TreeRefinement.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -23,8 +26,13 @@ namespace bandmarks
 /// The leaf's samples are a vertex of the band.
 inline constexpr std::uint8_t inBand = 1;
 
-/// The sphere of a crossing tetrahedron may reach the region of this node without children.
+/// The sphere of a crossing tetrahedron may reach the region of this leaf, or of this unsplit node
+/// of few samples.
 inline constexpr std::uint8_t reached = 2;
+
+/// Such a sphere may pass between the samples of this node's children without reaching the bounding
+/// box of one child's samples.
+inline constexpr std::uint8_t parted = 4;
 
 } // namespace bandmarks
 
@@ -103,20 +111,23 @@ template <class TSample>
 class SphereSearch
 {
 public:
-  SphereSearch(const SampleTree<TSample>& tree, const PartialTriangulation& band, NodeMarks& marks)
+  /// @param boxes of the samples of some nodes, by index; computed on demand
+  SphereSearch(const SampleTree<TSample>& tree, const PartialTriangulation& band, NodeMarks& marks,
+    ConcurrentMemo<Region>& boxes)
     : Tree(tree)
     , Band(band)
     , Marks(marks)
+    , Boxes(boxes)
   {
   }
 
-  /// Finds a sample outside the band but inside the sphere of a listed cell. Marks each visited
-  /// node without children whose region the sphere may reach.
+  /// Finds a sample outside the band but inside the sphere of a listed cell. Sets the marks above.
   /// @returns its leaf. Nothing means that there is none if isComplete()
   std::optional<std::size_t> find(std::size_t openCell)
   {
     this->Cell = openCell;
     this->UnsplitReached = 0;
+    this->Begin = this->Visits;
     return this->Band.isBeyondHull(openCell)
              ? this->findIn(HullFacetShape(this->Band.hullFacetAt(openCell)))
              : this->findIn(BallShape(this->Band.tetrahedronAt(openCell)));
@@ -186,12 +197,45 @@ private:
   bool visitChild(const Node<TSample>& node, bool isUpper, const TShape& shape,
     const typename TShape::Bounds& bounds, Region& box)
   {
+    const std::size_t child = this->Tree.child(node, isUpper);
+    if (this->isLong() && !this->mayReachSamples(child, shape))
+    {
+      this->Marks.set(static_cast<std::size_t>(&node - this->Tree.nodes.data()), bandmarks::parted);
+      return false;
+    }
     double& bound = isUpper ? box.lower[node.axis] : box.upper[node.axis];
     const double former = bound;
     bound = node.plane;
-    const bool isDone = this->visit(this->Tree.child(node, isUpper), shape, bounds, box);
+    const bool isDone = this->visit(child, shape, bounds, box);
     bound = former;
     return isDone;
+  }
+
+  /// Whether the search visits so many nodes that bounding boxes of samples pay: as in the huge
+  /// sphere of a sliver on the hull, which passes between a face of the hull and the samples.
+  bool isLong() const
+  {
+    constexpr std::size_t manyVisits = 250;
+    return this->Visits - this->Begin > manyVisits;
+  }
+
+  /// Whether the shape may intersect the bounding box of a node's samples. Large nodes and nodes of
+  /// few samples always pass, since their boxes are costly or hardly smaller than their regions.
+  template <class TShape>
+  bool mayReachSamples(std::size_t nodeIndex, const TShape& shape)
+  {
+    const Node<TSample>& node = this->Tree.nodes[nodeIndex];
+    if (node.count() <= fewSamples || node.count() > smallNode || !this->Tree.hasOnlyOwn(node))
+    {
+      return true;
+    }
+    const Region box = this->Boxes.at(nodeIndex, [&]() { return boxOfSamples(this->Tree, node); });
+    typename TShape::Bounds bounds{};
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      shape.narrow(bounds, axis, box.lower[axis], box.upper[axis]);
+    }
+    return shape.mayHold(bounds);
   }
 
   /// The same for a node without children.
@@ -199,9 +243,9 @@ private:
   bool visitEnd(std::size_t nodeIndex, const TShape& shape)
   {
     const Node<TSample>& node = this->Tree.nodes[nodeIndex];
-    this->Marks.set(nodeIndex, bandmarks::reached);
     if (node.isLeaf)
     {
+      this->Marks.set(nodeIndex, bandmarks::reached);
       if (!this->Marks.has(nodeIndex, bandmarks::inBand) && this->isInside(shape, node.begin))
       {
         this->Found = nodeIndex;
@@ -217,8 +261,12 @@ private:
     }
     if (hasToBeSplit)
     {
-      this->Unsplit.push_back(nodeIndex);
+      this->Unsplit.push_back(nodeIndex); // the search is repeated, and then sets marks below
       ++this->UnsplitReached;
+    }
+    else
+    {
+      this->Marks.set(nodeIndex, bandmarks::reached);
     }
     return this->UnsplitReached >= manyUnsplit;
   }
@@ -240,9 +288,11 @@ private:
   const SampleTree<TSample>& Tree;
   const PartialTriangulation& Band;
   NodeMarks& Marks;
+  ConcurrentMemo<Region>& Boxes;
   std::size_t Cell = 0;
   std::optional<std::size_t> Found;
   std::size_t Visits = 0;
+  std::size_t Begin = 0; // visits before this search
   std::size_t UnsplitReached = 0;
   std::vector<std::size_t> Unsplit;
 };

@@ -135,6 +135,12 @@ struct SampleTree
     return node.begin < this->ownEnd && node.end > this->ownBegin;
   }
 
+  /// Whether this rank owns all of a node's samples.
+  bool hasOnlyOwn(const NodeType& node) const
+  {
+    return node.begin >= this->ownBegin && node.end <= this->ownEnd;
+  }
+
   /// Whether this rank owns the sample at a place in tree order.
   bool isOwn(std::size_t place) const { return place >= this->ownBegin && place < this->ownEnd; }
 

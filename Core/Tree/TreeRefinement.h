@@ -95,31 +95,6 @@ void splitFurther(
     [](std::size_t) {});
 }
 
-/// The most samples of a bucket.
-constexpr std::size_t bucketSize = 8;
-
-/// Marks a node as a bucket if it is small and all its samples are at different positions.
-/// @returns whether it is one
-template <class TSample>
-bool markBucket(SampleTree<TSample>& tree, Node<TSample>& node)
-{
-  if (node.count() > bucketSize)
-  {
-    return false;
-  }
-  const TSample* const samples = tree.samples.data();
-  for (std::size_t i = node.begin; i < node.end; ++i)
-  {
-    const auto isAtSame = [&](const TSample& other) { return haveOnePosition(samples[i], other); };
-    if (std::any_of(samples + i + 1, samples + node.end, isAtSame))
-    {
-      return false;
-    }
-  }
-  node.isBucket = true;
-  return true;
-}
-
 /// Marks the buckets among the unsplit nodes at and below a node.
 template <class TSample>
 void markBuckets(SampleTree<TSample>& tree, std::size_t nodeIndex)

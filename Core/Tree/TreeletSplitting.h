@@ -30,6 +30,31 @@ inline std::size_t maximumTreeletPairs(std::size_t sampleCount, int levels)
   return std::min<std::size_t>(sampleCount - 1, (std::size_t{ 1 } << levels) - 1);
 }
 
+/// The most samples of a bucket.
+constexpr std::size_t bucketSize = 8;
+
+/// Marks a node as a bucket if it is small and all its samples are at different positions.
+/// @returns whether it is one
+template <class TSample>
+bool markBucket(SampleTree<TSample>& tree, Node<TSample>& node)
+{
+  if (node.count() > bucketSize)
+  {
+    return false;
+  }
+  const TSample* const samples = tree.samples.data();
+  for (std::size_t i = node.begin; i < node.end; ++i)
+  {
+    const auto isAtSame = [&](const TSample& other) { return haveOnePosition(samples[i], other); };
+    if (std::any_of(samples + i + 1, samples + node.end, isAtSame))
+    {
+      return false;
+    }
+  }
+  node.isBucket = true;
+  return true;
+}
+
 /// Splits nodes by the definition of the canonical tree (docs/algorithm.md, section 3; [RL06]
 /// section 4). The top node becomes a parent last, so an exception leaves it unsplit.
 template <class TSample>
@@ -111,6 +136,7 @@ private:
     node.plane = halves->plane;
     node.axis = static_cast<std::uint8_t>(axis);
     node.childPair = static_cast<typename TSample::Id>(pair);
+    markBucket(this->Tree, node);
   }
 
   void computeRangeTogether(const Execution& execution, Node<TSample>& node)
