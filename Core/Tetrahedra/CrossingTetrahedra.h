@@ -499,7 +499,7 @@ private:
       [&](std::size_t begin, std::size_t end)
       {
         SphereSearch<TSample> search(
-          this->Tree, this->triangulation(), this->Current->marks, this->Current->boxes);
+          this->Tree, this->triangulation(), this->Current->marks, this->Current->boxes, this->IsBody);
         std::vector<std::size_t> leaves;
         std::size_t visits = 0;
         for (std::size_t i = begin; i < end && !this->isSpent(); ++i)

@@ -112,12 +112,15 @@ class SphereSearch
 {
 public:
   /// @param boxes of the samples of some nodes, by index; computed on demand
+  /// @param isHullWanted whether many cells are on the hull of all samples
   SphereSearch(const SampleTree<TSample>& tree, const PartialTriangulation& band, NodeMarks& marks,
-    ConcurrentMemo<Region>& boxes)
+    ConcurrentMemo<Region>& boxes, bool isHullWanted)
     : Tree(tree)
     , Band(band)
     , Marks(marks)
     , Boxes(boxes)
+    , MaxVisits(isHullWanted ? 64 : 250)
+    , MaxBoxed(isHullWanted ? tree.samples.size() : smallNode)
   {
   }
 
@@ -215,8 +218,7 @@ private:
   /// sphere of a sliver on the hull, which passes between a face of the hull and the samples.
   bool isLong() const
   {
-    constexpr std::size_t manyVisits = 250;
-    return this->Visits - this->Begin > manyVisits;
+    return this->Visits - this->Begin > this->MaxVisits;
   }
 
   /// Whether the shape may intersect the bounding box of a node's samples. Large nodes and nodes of
@@ -225,7 +227,7 @@ private:
   bool mayReachSamples(std::size_t nodeIndex, const TShape& shape)
   {
     const Node<TSample>& node = this->Tree.nodes[nodeIndex];
-    if (node.count() <= fewSamples || node.count() > smallNode || !this->Tree.hasOnlyOwn(node))
+    if (node.count() <= fewSamples || node.count() > this->MaxBoxed || !this->Tree.hasOnlyOwn(node))
     {
       return true;
     }
@@ -289,6 +291,8 @@ private:
   const PartialTriangulation& Band;
   NodeMarks& Marks;
   ConcurrentMemo<Region>& Boxes;
+  const std::size_t MaxVisits; // of searches without boxes of samples
+  const std::size_t MaxBoxed;  // samples of a node with such a box
   std::size_t Cell = 0;
   std::optional<std::size_t> Found;
   std::size_t Visits = 0;
