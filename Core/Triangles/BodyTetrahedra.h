@@ -3,6 +3,7 @@
 
 #include "Core/Base/Execution.h"
 #include "Core/Base/Lists.h"
+#include "Core/Extraction/Isosurface.h"
 #include "Core/Neighbors/VoidCriterion.h"
 #include "Core/Tetrahedra/CrossingTetrahedra.h"
 #include "Core/Tree/SampleBounds.h"
@@ -94,8 +95,7 @@ private:
   /// The order of new tetrahedra; needed where ranks exchange their numbers.
   std::function<std::uint64_t(std::uint64_t)> placeOfLeaf() const
   {
-    return [this](std::uint64_t leaf)
-    { return std::uint64_t{ this->Tree.nodes[static_cast<std::size_t>(leaf)].begin }; };
+    return [this](std::uint64_t leaf) { return this->placeOf(leaf); };
   }
 
   void resize(std::size_t count)
@@ -126,49 +126,91 @@ private:
     }
   }
 
-  /// The tetrahedra with an edge that a criterion rejects, on any rank.
+  /// An edge of tetrahedra; edges are ordered by the places of their ends in the tree.
+  struct Edge
+  {
+    std::array<std::uint64_t, 2> places; // ascending
+    std::array<std::uint64_t, 2> leaves; // in the same order
+
+    bool operator<(const Edge& other) const { return this->places < other.places; }
+    bool operator==(const Edge& other) const { return this->places == other.places; }
+  };
+
+  /// Calls visit(edge) for the edges of a tetrahedron.
+  template <class Visit>
+  void forEachEdge(std::size_t tetrahedron, const Visit& visit) const
+  {
+    const auto corners = this->cells().exploredTetrahedron(tetrahedron).corners;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      for (std::size_t j = i + 1; j < 4; ++j)
+      {
+        const std::uint64_t a = this->placeOf(corners[i]);
+        const std::uint64_t b = this->placeOf(corners[j]);
+        visit(a < b ? Edge{ { a, b }, { corners[i], corners[j] } }
+                    : Edge{ { b, a }, { corners[j], corners[i] } });
+      }
+    }
+  }
+
+  std::uint64_t placeOf(std::uint64_t leaf) const
+  {
+    return this->Tree.nodes[static_cast<std::size_t>(leaf)].begin;
+  }
+
+  /// The tetrahedra with an edge that a criterion rejects.
   template <class TCriterion>
   std::vector<std::size_t> rejectedAmong(
     const TCriterion& criterion, const std::vector<std::size_t>& tetrahedra)
   {
+    const std::vector<Edge> rejected = this->rejectedEdges(criterion, tetrahedra);
     std::vector<char> marks(tetrahedra.size(), 0);
-    constexpr std::size_t grain = 256;
-    this->Ranks.forEach(
-      this->Exec, { tetrahedra.size(), 8 * grain, grain }, []() { return 0; },
-      [&](int, std::size_t i)
-      { marks[i] = this->isRejected(criterion, tetrahedra[i]) ? 1 : 0; });
+    forEachIndex(this->Exec, tetrahedra.size(),
+      [&](std::size_t i)
+      {
+        this->forEachEdge(tetrahedra[i],
+          [&](const Edge& edge)
+          {
+            const bool isRejected = std::binary_search(rejected.begin(), rejected.end(), edge);
+            marks[i] = marks[i] || isRejected ? 1 : 0;
+          });
+      });
     std::vector<std::size_t> found = markedOf(this->Exec, marks);
-    this->Ranks.unite(found);
     std::transform(
       found.begin(), found.end(), found.begin(), [&](std::size_t i) { return tetrahedra[i]; });
     return found;
   }
 
-  /// False on ranks that do not own the first corner, in the order of the tree.
+  /// The edges of tetrahedra that a criterion rejects, ordered. Each is in several tetrahedra.
   template <class TCriterion>
-  bool isRejected(const TCriterion& criterion, std::size_t tetrahedron)
+  std::vector<Edge> rejectedEdges(
+    const TCriterion& criterion, const std::vector<std::size_t>& tetrahedra)
   {
-    const auto corners = this->cells().exploredTetrahedron(tetrahedron).corners;
-    const auto nodeOf = [this](std::uint64_t leaf) -> const Node<TSample>&
-    { return this->Tree.nodes[static_cast<std::size_t>(leaf)]; };
-    const auto first = *std::min_element(corners.begin(), corners.end(),
-      [&](std::uint64_t a, std::uint64_t b) { return nodeOf(a).begin < nodeOf(b).begin; });
-    if (!this->Tree.isOwn(nodeOf(first).begin))
-    {
-      return false;
-    }
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      for (std::size_t j = i + 1; j < 4; ++j)
+    std::vector<Edge> edges(6 * tetrahedra.size());
+    forEachIndex(this->Exec, tetrahedra.size(),
+      [&](std::size_t i)
       {
-        if (criterion.drops(this->Tree, this->Bounds, this->sampleAt(corners[i]),
-              this->sampleAt(corners[j])))
-        {
-          return true;
-        }
-      }
-    }
-    return false;
+        std::size_t place = 6 * i;
+        this->forEachEdge(tetrahedra[i], [&](const Edge& edge) { edges[place++] = edge; });
+      });
+    edges = sortedUnique(this->Exec, edges, this->Tree.samples.size(),
+      [](const Edge& edge) { return edge.places[0]; });
+    std::vector<char> marks(edges.size(), 0);
+    constexpr std::size_t grain = 256;
+    this->Ranks.forEach(
+      this->Exec, { edges.size(), 8 * grain, grain }, []() { return 0; },
+      [&](int, std::size_t i)
+      {
+        const Edge& edge = edges[i];
+        marks[i] = this->Tree.isOwn(static_cast<std::size_t>(edge.places[0])) &&
+                       criterion.drops(this->Tree, this->Bounds, this->sampleAt(edge.leaves[0]),
+                         this->sampleAt(edge.leaves[1]))
+                     ? 1
+                     : 0;
+      });
+    std::vector<std::size_t> found = markedOf(this->Exec, marks);
+    this->Ranks.unite(found);
+    return chosenOf(this->Exec, edges, found);
   }
 
   const TSample& sampleAt(std::uint64_t leaf) const
