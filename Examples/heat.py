@@ -6,11 +6,10 @@ Needs the compiled plugin, loaded by PV_PLUGIN_PATH or the Debian package."""
 import numpy as np
 from paraview.simple import *
 
-# Stands for your file: heat that spreads from two points in a ball of 50,000 sensors.
-random = np.random.default_rng(3)
-places = random.normal(size=(3, 50000))
-places *= random.random(50000) ** (1 / 3) / np.linalg.norm(places, axis=0)
-x, y, z = places
+# Stands for your file: heat that spreads from two points in a ball of 60,000 uneven sensors.
+lattice = np.stack(np.meshgrid(*3 * [np.linspace(-1, 1, 49)], indexing="ij"), -1).reshape(-1, 3)
+places = lattice + np.random.default_rng(3).normal(0, 0.008, lattice.shape)
+x, y, z = places = places[np.linalg.norm(places, axis=1) < 1].T
 temperature = np.exp(-8 * ((x - 0.4) ** 2 + y**2 + z**2)) + 0.7 * np.exp(-20 * ((x + 0.4) ** 2 + y**2 + z**2))
 np.savetxt("heat.csv", np.column_stack([*places, temperature]), "%.6f", ",", header="x,y,z,temperature", comments="")
 
@@ -51,6 +50,7 @@ ResetCamera(view)
 
 # The plot: outside of the samples the curve has gaps.
 chart = CreateView("XYChartView")
+chart.BottomAxisTitle, chart.LeftAxisTitle, chart.LegendLocation = "distance", "temperature", "TopLeft"
 AssignViewToLayout(chart, layout, 6)
 line = ScatteredLine(Input=samples, Point1=[-1.2, 0, 0], Point2=[1.2, 0, 0])
 exact = PythonCalculator(Input=line, ArrayName="exact", Expression=(

@@ -44,7 +44,7 @@ draw()
 draw pvbatch "$root/Utilities/demo.py" "$plugin"
 draw pvbatch "$root/Benchmark/troubleshooting_pictures.py" "$plugin" "$root/docs/choosing"
 export PV_PLUGIN_PATH=${plugin%/*} # those above load the plugin themselves
-for name in amr_levels csv_table heat in_situ_simulation sharp_solid time_series vortices; do
+for name in amr_levels csv_table filters heat in_situ_simulation particle_slice sharp_solid time_series vortices; do
   draw pvbatch "$root/Examples/$name.py"
 done
 for name in ray_traced_spheres sph_snapshot; do

@@ -3,6 +3,7 @@
 
 import contextlib
 import html
+import re
 import sqlite3
 import sys
 import unittest
@@ -28,8 +29,17 @@ class HelpTest(unittest.TestCase):
                     self.assertIn(element.get("label", element.get("name")), page)
             self.assertIn(proxy.get("label"), page)
 
-    def test_pages_have_headings_and_a_picture(self):
-        self.assertTrue(self.pages["comparison.png"].startswith(b"\x89PNG"))
+    def test_each_page_has_a_picture(self):
+        """Of the filter itself, but one for all that make isosurfaces."""
+        pictures = {}
+        for name, page in self.pages.items():
+            if name.endswith(".html"):
+                (pictures[name],) = re.findall(r'<img src="([^"]+)"[^>]*/><br/><i>[A-Z][^<]+\.</i>', page.decode())
+                self.assertTrue(self.pages[pictures[name]].startswith(b"\x89PNG"), name)
+        for name in ("Slice", "Probe", "Line", "Grid", "Gradient"):
+            self.assertEqual(pictures[f"filters.Scattered{name}.html"], f"filters_{name.lower()}.png")
+
+    def test_pages_of_isosurfaces_have_headings(self):
         for name in ("ScatteredIsopoints", "ScatteredIsosurface"):
             page = self.pages[f"filters.{name}.html"].decode()
             for mark, least in (

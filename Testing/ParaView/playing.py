@@ -208,9 +208,11 @@ def python_alone(library, package):
 
 
 def run_script(pvbatch, text, **environment):
-    """@returns the lines that begin with "found:", and what a script of pvbatch printed"""
+    """@param pvbatch the program, or a list of it and of what starts it
+    @returns the lines that begin with "found:", and what a script of pvbatch printed"""
     (FOLDER / "script.py").write_text(text)
-    done = subprocess.run([pvbatch, str(FOLDER / "script.py")], env=dict(os.environ, **environment), check=False,
+    command = [pvbatch] if isinstance(pvbatch, str) else pvbatch
+    done = subprocess.run([*command, str(FOLDER / "script.py")], env=dict(os.environ, **environment), check=False,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     check(done.returncode == 0 and "Traceback" not in done.stdout, f"{text}{done.stdout}")
     return [line for line in done.stdout.splitlines() if line.startswith("found:")], done.stdout
