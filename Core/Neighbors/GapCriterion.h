@@ -30,9 +30,8 @@ public:
   static constexpr double coneCosine = 1.0 / 1.7320508075688772;
 
   /// @param factor positive
-  /// @param count rank of the sample behind an end that defines the spacing: 1 to 10
-  /// @param cosine of the cone's half angle; 0 for the half-space behind an end, and less than -1
-  /// for all around
+  /// @param count rank of the sample behind an end that defines the spacing: 1 to 3
+  /// @param cosine of the cone's half angle; 0 for the half-space behind an end
   GapCriterion(double factor, std::size_t count, double cosine = coneCosine)
     : Factor(factor)
     , WantedCount(count)
@@ -87,7 +86,7 @@ public:
   }
 
 private:
-  static constexpr std::size_t maxWanted = 10;
+  static constexpr std::size_t maxWanted = 3;
 
   /// Positions found behind an end, each once.
   template <class TSample>

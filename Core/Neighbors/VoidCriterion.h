@@ -2,10 +2,9 @@
 #pragma once
 
 #include "Core/Neighbors/GapCriterion.h"
-#include "Core/Neighbors/NearestSample.h"
+#include "Core/Neighbors/SampleSpacing.h"
 
 #include <algorithm>
-#include <cstddef>
 
 namespace isopoint
 {
@@ -29,56 +28,50 @@ public:
   bool drops(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& own,
     const TSample& other) const
   {
+    const auto spacingAt = [&tree](const TSample& end)
+    { return SpacingSearch<TSample>(tree, end).find(); };
+    const double spacing = spacingAt(own);
+    return this->mayDrop(own, other, spacing) &&
+           this->drops(tree, bounds, own, other, std::max(spacing, spacingAt(other)));
+  }
+
+  /// The same if the greater of both spacings is known.
+  template <class TSample>
+  bool drops(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& own,
+    const TSample& other, double spacing) const
+  {
     // The other criterion takes long for edges of slivers, which are long.
-    return this->isBare(tree, bounds, own, other) &&
+    return this->mayDrop(own, other, spacing) &&
+           this->isBare(tree, positionOf(own), positionOf(other), this->Factor * spacing) &&
            this->Criterion.drops(tree, bounds, own, other);
   }
 
 private:
-  static constexpr int partCount = 8;
-
-  /// Whether one of the balls is empty.
+  /// Whether the edge is so long that a ball on it may contain neither end.
+  /// @param spacing at one end, or the greater one
   template <class TSample>
-  bool isBare(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& own,
-    const TSample& other) const
+  bool mayDrop(const TSample& own, const TSample& other, double spacing) const
   {
-    // An end is never farther than half the length.
-    constexpr double maxShare = 0.5;
-    if (!this->isLonger(tree, bounds, own, other, maxShare))
-    {
-      return false;
-    }
-    const double length = offsetBetween(positionOf(own), positionOf(other)).length;
-    return this->isLonger(
-      tree, bounds, own, other, largestBall(tree, positionOf(own), positionOf(other)) / length);
+    constexpr double slack = 1.001; // for rounding
+    return 2.0 * this->Factor * spacing <
+           slack * lengthOf(positionOf(other) - positionOf(own));
   }
 
-  /// Whether a share of the edge is longer than the factor times the spacing at both ends.
+  /// Whether one of the balls is empty. The same from either end.
   template <class TSample>
-  bool isLonger(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& own,
-    const TSample& other, double share) const
+  static bool isBare(
+    const SampleTree<TSample>& tree, const Vector& a, const Vector& b, double radius)
   {
-    constexpr std::size_t spacingCount = 10;
-    constexpr double allAround = -2.0;
-    const GapCriterion around{ this->Factor / share, spacingCount, allAround };
-    return around.drops(tree, bounds, own, other);
-  }
-
-  /// The greatest radius of an empty ball around a dividing point. The same from either end.
-  template <class TSample>
-  static double largestBall(const SampleTree<TSample>& tree, const Vector& a, const Vector& b)
-  {
-    double largest = 0.0;
-    for (int i = 1; i < partCount; ++i)
+    constexpr int partCount = 8;
+    bool isBare = false;
+    for (int i = 1; i < partCount && !isBare; ++i)
     {
       const double share = static_cast<double>(i) / partCount;
       const Vector place = (1.0 - share) * a + share * b;
-      const double reach = offsetBetween(place, i <= partCount / 2 ? a : b).length;
-      const TSample* const nearest =
-        NearestSampleSearch<TSample>(tree, place, 1.001 * reach).search();
-      largest = std::max(largest, lengthOf(positionOf(*nearest) - place));
+      isBare = lengthOf(place - (i <= partCount / 2 ? a : b)) > radius &&
+               EmptyBallSearch<TSample>(tree, place, radius).isEmpty();
     }
-    return largest;
+    return isBare;
   }
 
   TCriterion Criterion;

@@ -13,6 +13,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <numeric>
+#include <unordered_map>
 #include <vector>
 
 namespace isopoint
@@ -195,22 +197,55 @@ private:
       });
     edges = sortedUnique(this->Exec, edges, this->Tree.samples.size(),
       [](const Edge& edge) { return edge.places[0]; });
+    this->findSpacings(edges);
     std::vector<char> marks(edges.size(), 0);
     constexpr std::size_t grain = 256;
     this->Ranks.forEach(
       this->Exec, { edges.size(), 8 * grain, grain }, []() { return 0; },
       [&](int, std::size_t i)
       {
-        const Edge& edge = edges[i];
-        marks[i] = this->Tree.isOwn(static_cast<std::size_t>(edge.places[0])) &&
-                       criterion.drops(this->Tree, this->Bounds, this->sampleAt(edge.leaves[0]),
-                         this->sampleAt(edge.leaves[1]))
-                     ? 1
-                     : 0;
+        const auto& [places, leaves] = edges[i];
+        marks[i] =
+          this->isOwn(edges[i]) &&
+              criterion.drops(this->Tree, this->Bounds, this->sampleAt(leaves[0]),
+                this->sampleAt(leaves[1]),
+                std::max(this->SpacingAt.at(places[0]), this->SpacingAt.at(places[1])))
+            ? 1
+            : 0;
       });
     std::vector<std::size_t> found = markedOf(this->Exec, marks);
     this->Ranks.unite(found);
     return chosenOf(this->Exec, edges, found);
+  }
+
+  bool isOwn(const Edge& edge) const
+  {
+    return this->Tree.isOwn(static_cast<std::size_t>(edge.places[0]));
+  }
+
+  /// Finds the spacings at the ends of this rank's edges, each once.
+  void findSpacings(const std::vector<Edge>& edges)
+  {
+    std::vector<std::uint64_t> leaves;
+    forEachInOrder(this->Exec, edges.size(),
+      [&](std::size_t i)
+      {
+        for (std::size_t end = 0; end < 2; ++end)
+        {
+          if (this->isOwn(edges[i]) && this->SpacingAt.emplace(edges[i].places[end], 0.0).second)
+          {
+            leaves.push_back(edges[i].leaves[end]);
+          }
+        }
+      });
+    constexpr std::size_t grain = 256;
+    this->Ranks.forEach(
+      this->Exec, { leaves.size(), 8 * grain, grain }, []() { return 0; },
+      [&](int, std::size_t i)
+      {
+        this->SpacingAt.at(this->placeOf(leaves[i])) =
+          SpacingSearch<TSample>(this->Tree, this->sampleAt(leaves[i])).find();
+      });
   }
 
   const TSample& sampleAt(std::uint64_t leaf) const
@@ -430,6 +465,7 @@ private:
   SampleBounds<TSample> Bounds;
   TRanks& Ranks;
   CrossingTetrahedraFinder<TSample, TRanks>& Finder;
+  std::unordered_map<std::uint64_t, double> SpacingAt; // by place of the sample
   // By explored tetrahedron:
   std::vector<char> IsInGap;
   std::vector<char> IsReached;

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "Core/Base/Region.h"
+#include "Core/Base/Vector.h"
+#include "Core/Tree/SampleTree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace isopoint
+{
+
+/// A ball in which samples are searched; see searchRegion().
+template <class TSample>
+class BallSearch
+{
+public:
+  BallSearch(const SampleTree<TSample>& tree, const Vector& center, double radius)
+    : Tree(tree)
+    , Center(center)
+    , Radius(radius)
+  {
+  }
+
+  bool mayHold(const Node<TSample>& /*node*/, const Region& region) const
+  {
+    Vector gap{};
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      gap[axis] = std::max(
+        { region.lower[axis] - this->Center[axis], this->Center[axis] - region.upper[axis], 0.0 });
+    }
+    constexpr double slack = 0.999; // for rounding
+    return slack * slack * dot(gap, gap) <= this->Radius * this->Radius;
+  }
+
+  bool isUpperFirst(const Node<TSample>& node) const
+  {
+    return this->Center[node.axis] > node.plane;
+  }
+
+  /// The part of a region within the ball, with a margin for rounding.
+  Region needed(Region region) const
+  {
+    const double reach = 1.001 * this->Radius;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      region.lower[axis] = std::max(region.lower[axis], this->Center[axis] - reach);
+      region.upper[axis] = std::min(region.upper[axis], this->Center[axis] + reach);
+    }
+    return region;
+  }
+
+protected:
+  const SampleTree<TSample>& Tree;
+  const Vector Center;
+  double Radius;
+};
+
+/// Whether there is no sample in a ball or on its boundary.
+template <class TSample>
+class EmptyBallSearch : public BallSearch<TSample>
+{
+public:
+  using BallSearch<TSample>::BallSearch;
+
+  /// O(log n) mostly. @throws MissingNode at a node whose samples another rank holds
+  bool isEmpty()
+  {
+    return !searchRegion(
+      this->Tree, SampleTree<TSample>::rootNode, this->needed(this->Tree.region), *this);
+  }
+
+  bool add(std::size_t nodeIndex) const
+  {
+    const Node<TSample>& node = this->Tree.nodes[nodeIndex];
+    const auto first = this->Tree.samples.data() + node.begin;
+    return std::any_of(first, first + (node.positionsEnd() - node.begin),
+      [this](const TSample& sample)
+      { return lengthOf(positionOf(sample) - this->Center) <= this->Radius; });
+  }
+};
+
+/// Finds the spacing of the samples around one of them.
+template <class TSample>
+class SpacingSearch : public BallSearch<TSample>
+{
+public:
+  SpacingSearch(const SampleTree<TSample>& tree, const TSample& sample)
+    : BallSearch<TSample>(tree, positionOf(sample), std::numeric_limits<double>::infinity())
+    , Own(sample)
+  {
+  }
+
+  /// The distance to the tenth nearest other position; infinite if there are fewer. O(log n) mostly
+  /// @throws MissingNode at a node whose samples another rank holds
+  double find()
+  {
+    searchRegion(this->Tree, SampleTree<TSample>::rootNode, this->Tree.region, *this);
+    return this->Radius;
+  }
+
+  bool add(std::size_t nodeIndex)
+  {
+    const Node<TSample>& node = this->Tree.nodes[nodeIndex];
+    for (std::size_t i = node.begin; i < node.positionsEnd(); ++i)
+    {
+      const TSample& sample = this->Tree.samples[i];
+      const double distance = lengthOf(positionOf(sample) - this->Center);
+      if (distance < this->Radius && !this->isKnown(sample))
+      {
+        this->insert({ distance, &sample });
+      }
+    }
+    return false;
+  }
+
+private:
+  static constexpr std::size_t wantedCount = 10;
+
+  struct Near
+  {
+    double distance;
+    const TSample* sample;
+  };
+
+  bool isKnown(const TSample& sample) const
+  {
+    const auto end = this->Nearest.begin() + static_cast<std::ptrdiff_t>(this->Count);
+    return haveOnePosition(sample, this->Own) ||
+           std::any_of(this->Nearest.begin(), end,
+             [&](const Near& near) { return haveOnePosition(*near.sample, sample); });
+  }
+
+  void insert(const Near& near)
+  {
+    std::size_t place = this->Count < wantedCount ? this->Count++ : wantedCount - 1;
+    for (; place > 0 && near.distance < this->Nearest[place - 1].distance; --place)
+    {
+      this->Nearest[place] = this->Nearest[place - 1];
+    }
+    this->Nearest[place] = near;
+    if (this->Count == wantedCount)
+    {
+      this->Radius = this->Nearest.back().distance;
+    }
+  }
+
+  const TSample& Own;
+  std::array<Near, wantedCount> Nearest; // ascending
+  std::size_t Count = 0;
+};
+
+} // namespace isopoint
