@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -78,6 +79,39 @@ private:
   std::vector<Entry> Entries; // size is a power of two
   std::size_t Count = 0;
   std::uint32_t Generation = 1;
+};
+
+/// The same for indices below a limit: twice as fast, but takes two bytes for each index below it.
+class DenseIndexSet
+{
+public:
+  /// @throws std::bad_alloc
+  explicit DenseIndexSet(std::size_t limit)
+    : Generations(limit, 0)
+  {
+  }
+
+  /// O(1), except when the generation counter overflows.
+  void clear()
+  {
+    if (++this->Generation == 0)
+    {
+      std::fill(this->Generations.begin(), this->Generations.end(), std::uint16_t{ 0 });
+      this->Generation = 1;
+    }
+  }
+
+  /// @returns whether it was not in the set. O(1)
+  bool add(std::size_t index)
+  {
+    const bool isNew = this->Generations[index] != this->Generation;
+    this->Generations[index] = this->Generation;
+    return isNew;
+  }
+
+private:
+  std::vector<std::uint16_t> Generations; // in which each index was added last
+  std::uint16_t Generation = 1;
 };
 
 } // namespace isopoint

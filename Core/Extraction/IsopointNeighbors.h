@@ -93,8 +93,12 @@ public:
   class Finder
   {
   public:
+    /// @throws std::bad_alloc
     explicit Finder(const IsopointNeighbors& neighbors)
       : Neighbors(neighbors)
+      , Ends(neighbors.Leaves.size())
+      , Visited(neighbors.Leaves.size())
+      , Listed(neighbors.Ends.size())
     {
     }
 
@@ -183,9 +187,9 @@ public:
     Id Leaf = 0;
     std::vector<std::size_t> Isopoints;
     std::vector<std::size_t> RingEnds; // in Isopoints
-    IndexSet<Id> Ends;                 // whose neighbors are listed
-    IndexSet<Id> Visited;
-    IndexSet<std::size_t> Listed;
+    DenseIndexSet Ends;                // whose neighbors are listed
+    DenseIndexSet Visited;
+    DenseIndexSet Listed;
   };
 
 private:

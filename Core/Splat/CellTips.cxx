@@ -41,17 +41,18 @@ void cutOff(const Tip& tip, LoweredCell& cell)
   {
     return;
   }
-  LoweredCell::Corner* const corner = cell.corners.data() + tip.corner.corner;
-  const LoweredCell::Corner cut = *corner;
-  std::copy_backward(
-    corner, cell.corners.data() + cell.count, cell.corners.data() + cell.count + 1);
+  const auto place = static_cast<std::ptrdiff_t>(tip.corner.corner);
+  const auto insertCopy = [&](auto& list)
+  {
+    const auto end = list.begin() + static_cast<std::ptrdiff_t>(cell.count);
+    std::copy_backward(list.begin() + place, end, end + 1);
+    return list.begin() + place;
+  };
+  const auto corner = insertCopy(cell.corners);
+  insertCopy(cell.sides)[0] = { VoronoiCell::none, false };
   ++cell.count;
-  corner[0] = tip.ends[0].value_or(cut);
-  corner[0].beyond = VoronoiCell::none;
-  corner[0].overlaps = false;
-  corner[1] = tip.ends[1].value_or(cut);
-  corner[1].beyond = cut.beyond;
-  corner[1].overlaps = cut.overlaps;
+  corner[0] = tip.ends[0].value_or(corner[0]);
+  corner[1] = tip.ends[1].value_or(corner[1]);
 }
 
 } // namespace

@@ -57,12 +57,17 @@ private:
   {
     constexpr double closeness = 0.05; // in units of length
     constexpr double minCosine = 0.7;
-    const double reach =
-      closeness * std::min(unitAt(this->Points, point), unitAt(this->Points, other));
+    if (this->Points.positions[point] == this->Points.positions[other])
+    {
+      return true;
+    }
     const Vector offset = this->Points.positions[other] - this->Points.positions[point];
-    return this->Points.positions[point] == this->Points.positions[other] ||
-           (lengthOf(offset) < reach &&
-             dot(this->Normals[point], this->Normals[other]) > minCosine);
+    const double unit = unitAt(this->Points, point);
+    // Most are farther by one coordinate alone, which takes neither a square root nor another fit.
+    return std::all_of(offset.begin(), offset.end(),
+             [unit](double component) { return std::abs(component) < closeness * unit; }) &&
+           lengthOf(offset) < closeness * std::min(unit, unitAt(this->Points, other)) &&
+           dot(this->Normals[point], this->Normals[other]) > minCosine;
   }
 
   /// A pseudorandom order of close points, so that chains of them are decided in few rounds. It

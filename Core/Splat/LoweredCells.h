@@ -22,17 +22,32 @@ struct LoweredCell
   struct Corner
   {
     Vector position;
-    Vector normal;      // of the surface, of length 1
-    double distance;    // from the point, in the tangent plane
-    std::size_t beyond; // see VoronoiCell
+    Vector normal;   // of the surface, of length 1
+    double distance; // from the point, in the tangent plane
+  };
+  struct Side // see VoronoiCell
+  {
+    std::size_t beyond;
     bool overlaps;
   };
 
   std::array<Corner, maxCorners> corners; // counterclockwise
+  std::array<Side, maxCorners> sides;     // that begin there, apart: searches read them alone
   std::size_t count;
   double unit;
   PlaneForm curvature; // see VoronoiCell
 };
+
+/// The index of a cell's side towards a point, or cell.count if there is none.
+inline std::size_t sideTowards(const LoweredCell& cell, std::size_t point)
+{
+  std::size_t side = 0;
+  while (side < cell.count && cell.sides[side].beyond != point)
+  {
+    ++side;
+  }
+  return side;
+}
 
 struct CornerOf
 {
@@ -67,14 +82,15 @@ public:
   CornerOf next(const CornerOf& corner, bool isOnward) const
   {
     const LoweredCell& cell = this->Cells[corner.point];
-    const std::size_t step = isOnward ? 1 : cell.count - 1;
-    return { corner.point, (corner.corner + step) % cell.count };
+    return { corner.point,
+      isOnward ? cornerAfter(cell, corner.corner) : cornerBefore(cell, corner.corner) };
   }
 
   /// The side that begins at a corner or, backward, ends there.
-  const LoweredCell::Corner& sideAt(const CornerOf& corner, bool isOnward) const
+  const LoweredCell::Side& sideAt(const CornerOf& corner, bool isOnward) const
   {
-    return this->at(isOnward ? corner : this->next(corner, false));
+    const LoweredCell& cell = this->Cells[corner.point];
+    return cell.sides[isOnward ? corner.corner : cornerBefore(cell, corner.corner)];
   }
 
   /// Whether both sides at a corner have a neighbor beyond: the surface continues there.
@@ -87,15 +103,15 @@ public:
   /// The corresponding corner of the cell across a shared side.
   std::optional<CornerOf> across(const CornerOf& corner, bool isOnward) const
   {
-    const std::size_t beyond = this->sideAt(corner, isOnward).beyond;
-    if (!VoronoiCell::isPoint(beyond) || this->sideAt(corner, isOnward).overlaps)
+    const auto& [beyond, overlaps] = this->sideAt(corner, isOnward);
+    if (!VoronoiCell::isPoint(beyond) || overlaps)
     {
       return std::nullopt;
     }
     const LoweredCell& other = this->Cells[beyond];
     const std::size_t side = sideTowards(other, corner.point);
     return side < other.count
-             ? std::optional(CornerOf{ beyond, isOnward ? (side + 1) % other.count : side })
+             ? std::optional(CornerOf{ beyond, isOnward ? cornerAfter(other, side) : side })
              : std::nullopt;
   }
 

@@ -40,7 +40,7 @@ std::optional<VoronoiCell::Corner> meetingOf(const VoronoiCell& cell, std::size_
   const VoronoiCell::Corner& before = cell.before(side);
   const VoronoiCell::Corner& begin = cell.corners[side];
   const VoronoiCell::Corner& end = cell.after(side);
-  const VoronoiCell::Corner& after = cell.corners[(side + 2) % cell.count];
+  const VoronoiCell::Corner& after = cell.after(cornerAfter(cell, side));
   const double ax = begin.x - before.x;
   const double ay = begin.y - before.y;
   const double bx = after.x - end.x;
@@ -58,7 +58,7 @@ std::optional<VoronoiCell::Corner> meetingOf(const VoronoiCell& cell, std::size_
 
 void replace(std::size_t side, const VoronoiCell::Corner& corner, VoronoiCell& cell)
 {
-  cell.corners[(side + 1) % cell.count] = corner;
+  cell.corners[cornerAfter(cell, side)] = corner;
   std::copy(cell.begin() + side + 1, cell.end(), cell.corners.data() + side);
   --cell.count;
 }

@@ -38,8 +38,8 @@ LoweredCell loweredCell(
     place += cell.unit * y * frame.second;
     place += cell.unit * height * plane;
     const Vector upwards = normal - slopeX * frame.first - slopeY * frame.second;
-    lowered.corners[i] = { place, directionOf(upwards), cell.unit * std::sqrt(x * x + y * y),
-      beyond, overlaps };
+    lowered.corners[i] = { place, directionOf(upwards), cell.unit * std::sqrt(x * x + y * y) };
+    lowered.sides[i] = { beyond, overlaps };
   }
   return lowered;
 }
@@ -142,7 +142,7 @@ private:
     double longest = 0.0; // side that overlaps
     for (const bool isOnward : { true, false })
     {
-      const LoweredCell::Corner& side = this->sideAt(corner, isOnward);
+      const LoweredCell::Side& side = this->sideAt(corner, isOnward);
       minCosine = std::min(minCosine, dot(this->Planes[side.beyond], this->Planes[corner.point]));
       if (side.overlaps)
       {
@@ -182,7 +182,7 @@ private:
     double sumOfHeights = 0.0;
     for (const bool isOnward : { true, false })
     {
-      const LoweredCell::Corner& side = this->sideAt(corner, isOnward);
+      const LoweredCell::Side& side = this->sideAt(corner, isOnward);
       const double cosine = dot(this->Planes[side.beyond], this->Planes[corner.point]);
       if (cosine > minCosine && !side.overlaps)
       {

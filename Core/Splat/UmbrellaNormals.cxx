@@ -17,7 +17,7 @@ std::optional<Vector> umbrellaNormal(
   for (std::size_t i = 0; i < cell.count; ++i)
   {
     const std::size_t a = cell.corners[i].beyond;
-    const std::size_t b = cell.corners[(i + 1) % cell.count].beyond;
+    const std::size_t b = cell.after(i).beyond;
     if (!VoronoiCell::isPoint(a) || !VoronoiCell::isPoint(b))
     {
       return std::nullopt;

@@ -10,6 +10,19 @@
 namespace isopoint
 {
 
+/// The index of the next corner of a cell, or of the previous one; a remainder would take longer.
+/// @tparam TCell has the corners and count of a VoronoiCell
+template <class TCell>
+std::size_t cornerAfter(const TCell& cell, std::size_t corner)
+{
+  return corner + 1 < cell.count ? corner + 1 : 0;
+}
+template <class TCell>
+std::size_t cornerBefore(const TCell& cell, std::size_t corner)
+{
+  return (corner > 0 ? corner : cell.count) - 1;
+}
+
 /// The Voronoi cell of a point, restricted to its tangent plane and limited: a convex polygon
 /// around the point, in the axes of its TangentFrame and a unit of length.
 struct VoronoiCell
@@ -27,11 +40,8 @@ struct VoronoiCell
   };
 
   /// The corner where the side before a side begins, and the one where the side after it does.
-  const Corner& before(std::size_t side) const
-  {
-    return this->corners[(side + this->count - 1) % this->count];
-  }
-  const Corner& after(std::size_t side) const { return this->corners[(side + 1) % this->count]; }
+  const Corner& before(std::size_t side) const { return this->corners[cornerBefore(*this, side)]; }
+  const Corner& after(std::size_t side) const { return this->corners[cornerAfter(*this, side)]; }
 
   const Corner* begin() const { return this->corners.data(); }
   const Corner* end() const { return this->corners.data() + this->count; }

@@ -466,7 +466,8 @@ TEST(Splats, EndBetweenOthersWhereTheseEnd)
     LoweredCell cell{};
     for (const auto& [position, beyond] : corners)
     {
-      cell.corners[cell.count++] = { position, up, 1.0, beyond, false };
+      cell.sides[cell.count] = { beyond, false };
+      cell.corners[cell.count++] = { position, up, 1.0 };
     }
     return cell;
   };
@@ -479,9 +480,9 @@ TEST(Splats, EndBetweenOthersWhereTheseEnd)
   cutOffTips({}, points, planes, cells);
   ASSERT_EQ(cells[0].count, 4u);
   EXPECT_EQ(cells[0].corners[2].position, (Vector{ 0.9, 0.3, 0.0 }));
-  EXPECT_EQ(cells[0].corners[2].beyond, none);
+  EXPECT_EQ(cells[0].sides[2].beyond, none);
   EXPECT_EQ(cells[0].corners[3].position, (Vector{ -0.9, 0.3, 0.0 }));
-  EXPECT_EQ(cells[0].corners[3].beyond, 2u);
+  EXPECT_EQ(cells[0].sides[3].beyond, 2u);
   EXPECT_EQ(cells[1].count + cells[2].count, 6u);
 }
 

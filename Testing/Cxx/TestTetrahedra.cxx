@@ -266,6 +266,35 @@ TEST(Tetrahedra, AreTheSameFromSeveralThreads)
   expectSameTetrahedra(withNoise(clouds::uniform(5000, 27), 0.5, 27), 0.5, 300);
 }
 
+TEST(Tetrahedra, AreInsertedTogetherByManyThreads)
+{
+  constexpr std::size_t threads = 3;
+  std::size_t batches = 0;
+  isopoint::Execution execution;
+  execution.threads = threads;
+  execution.parallelFor = [&](std::size_t count, std::size_t grain, const isopoint::RangeTask& task)
+  {
+    batches += count == threads && grain == 1 ? 1 : 0; // a stream of samples for each thread
+    task(0, count);
+  };
+  std::vector<isopoint::BandSite> sites;
+  Random random(28);
+  isopoint::CoordinateUnit unit;
+  for (std::uint64_t leaf = 0; leaf < 20000; ++leaf)
+  {
+    sites.push_back({ random.place(), leaf, false });
+    unit.add(sites.back().position);
+  }
+  isopoint::PartialTriangulation triangulation(unit);
+  triangulation.insert(execution, sites, [](double) {});
+  EXPECT_EQ(sites.size(), triangulation.size());
+#ifdef CGAL_LINKED_WITH_TBB
+  EXPECT_LE(3u, batches);
+#else
+  EXPECT_EQ(0u, batches);
+#endif
+}
+
 /// Samples on the wrong side of the tetrahedra found so far show that others are missing.
 TEST(Tetrahedra, DoNotDependOnTheFirstBand)
 {
