@@ -69,7 +69,11 @@ int vtkScatteredSliceFilter::RequestData(
   options.Function = this->CutFunction;
   options.Offsets.assign(this->ContourValues->GetValues(),
     this->ContourValues->GetValues() + this->ContourValues->GetNumberOfContours());
-  options.AreFits = this->Interpolation == FITS;
+  if (this->Interpolation != LINEAR)
+  {
+    options.Method =
+      this->Interpolation == FITS ? isopoint::PlaceMethod::Blend : isopoint::PlaceMethod::Nearest;
+  }
   options.Core.triangles = true;
   options.Core.projection = 0;
   options.Core.computeNormals = false;

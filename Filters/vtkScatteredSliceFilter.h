@@ -19,12 +19,12 @@
  * transform, they move onto it along the way to the sample at the end of their edge on its other
  * side. Triangles face against the function's gradient.
  *
- * Arrays keep their types; integers are rounded. Strings and pedigree ids are those of the nearer
+ * Integers are rounded. Strings and pedigree ids are those of the nearer
  * end of the edge; global ids are left out and, with a message, arrays that not all blocks have. A
  * function that is not finite at a sample with a finite position is an error.
  *
- * Moving a plane along its normal keeps the tree and all values: the next slice takes two thirds of
- * the time of the first with LINEAR, 0.8 with FITS. Other changes of the function keep the tree.
+ * Moving a plane along its normal keeps the tree and all values. Other changes of the function keep
+ * the tree.
  *
  * @sa
  * vtkScatteredIsosurfaceFilter vtkScatteredProbeFilter vtkCutter
@@ -89,20 +89,22 @@ public:
   enum InterpolationMethods
   {
     FITS = 0,
-    LINEAR = 1
+    LINEAR = 1,
+    NEAREST = 2
   };
 
   ///@{
   /**
-   * Where the arrays of points come from:
+   * Where the arrays of points come from. They keep their types:
    * - FITS: local polynomial fits, as in vtkScatteredProbeFilter with BLEND; at rims they
    *   extrapolate. Where no sample has a finite value, LINEAR.
    * - LINEAR: linear interpolation along the edges of the tetrahedralization. At rims, edges of
    *   slivers on the convex hull may be far too long for that.
+   * - NEAREST: the value of the nearest sample, as for numbers of materials.
    *
    * Values outside the enumeration are clamped. Default: FITS.
    */
-  vtkSetClampMacro(Interpolation, int, FITS, LINEAR);
+  vtkSetClampMacro(Interpolation, int, FITS, NEAREST);
   vtkGetMacro(Interpolation, int);
   ///@}
 

@@ -261,8 +261,9 @@ private:
     leaves = inTreeOrder(this->Exec, this->Tree, leaves);
   }
 
-  /// Continues with the kept band if it contains at least half of the leaves and, except for bodies,
-  /// whose borders change little, not many others; otherwise begins a new one. `Kept` is null meanwhile, because updates may fail.
+  /// Continues with the kept band if it contains a quarter of the leaves and, except for bodies,
+  /// whose borders change little, not many others; otherwise begins a new one. `Kept` is null
+  /// meanwhile, because updates may fail.
   /// @param leaves gathered
   void begin(const std::vector<std::size_t>& leaves)
   {

@@ -97,8 +97,10 @@ private:
     }
     const Summary lower = this->collect(node.lowerNode(), isReached);
     const Summary upper = this->collect(node.upperNode(), isReached);
-    if (lower.isClear && upper.isClear && lower.isBelow == upper.isBelow &&
-        !this->Marks.has(nodeIndex, bandmarks::parted))
+    // The surface may pass through a child's region, but not through the box of its samples.
+    const bool isMissed = this->Marks.has(node.lowerNode(), bandmarks::missed) ||
+                          this->Marks.has(node.upperNode(), bandmarks::missed);
+    if (lower.isClear && upper.isClear && lower.isBelow == upper.isBelow && !isMissed)
     {
       return { true, lower.isKnown || upper.isKnown, lower.isBelow };
     }

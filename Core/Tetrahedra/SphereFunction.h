@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "Core/Base/Region.h"
 #include "Core/Base/Vector.h"
 
 #include <algorithm>
@@ -66,6 +67,13 @@ public:
       result = std::min(result, y * (this->LowD * y - this->Behind[a]));
     }
     return result;
+  }
+
+  /// least() by axis for a box.
+  Vector leastIn(const Region& box) const
+  {
+    return { this->least(0, box.lower[0], box.upper[0]), this->least(1, box.lower[1], box.upper[1]),
+      this->least(2, box.lower[2], box.upper[2]) };
   }
 
   /// Whether the upper part of a box, split at a coordinate, is nearer to the center.

@@ -30,9 +30,8 @@ inline constexpr std::uint8_t inBand = 1;
 /// of few samples.
 inline constexpr std::uint8_t reached = 2;
 
-/// Such a sphere may pass between the samples of this node's children without reaching the bounding
-/// box of one child's samples.
-inline constexpr std::uint8_t parted = 4;
+/// Such a sphere may reach the region of this node, but not the bounding box of its samples.
+inline constexpr std::uint8_t missed = 4;
 
 } // namespace bandmarks
 
@@ -56,6 +55,10 @@ public:
 
   /// Whether a box may intersect the ball.
   bool mayHold(const Bounds& bounds) const { return !SphereFunction::isPositive(bounds); }
+  bool mayReach(const Region& box) const
+  {
+    return !SphereFunction::isPositive(this->Ball.leastIn(box));
+  }
 
   bool isAbove(int axis, double coordinate) const { return this->Ball.isAbove(axis, coordinate); }
   Side sideOf(const Vector& position) const { return this->Ball.sideOf(position); }
@@ -93,6 +96,13 @@ public:
            !(SphereFunction::isNotNegative(bounds.beyond) &&
              SphereFunction::isPositive(bounds.ball));
   }
+  bool mayReach(const Region& box) const
+  {
+    const Vector beyond = this->Beyond.leastIn(box);
+    return !SphereFunction::isPositive(beyond) &&
+           !(SphereFunction::isNotNegative(beyond) &&
+             SphereFunction::isPositive(this->Ball.leastIn(box)));
+  }
 
   bool isAbove(int axis, double coordinate) const { return this->Beyond.isAbove(axis, coordinate); }
   Side sideOf(const Vector& position) const { return this->Beyond.sideOf(position); }
@@ -112,15 +122,15 @@ class SphereSearch
 {
 public:
   /// @param boxes of the samples of some nodes, by index; computed on demand
-  /// @param isHullWanted whether many cells are on the hull of all samples
+  /// @param isHullWanted whether many cells are on the hull of all samples: then boxes pay earlier
   SphereSearch(const SampleTree<TSample>& tree, const PartialTriangulation& band, NodeMarks& marks,
     ConcurrentMemo<Region>& boxes, bool isHullWanted)
     : Tree(tree)
     , Band(band)
     , Marks(marks)
     , Boxes(boxes)
-    , MaxVisits(isHullWanted ? 64 : 250)
-    , MaxBoxed(isHullWanted ? tree.samples.size() : smallNode)
+    , ManyVisits(isHullWanted ? 16 : 250)
+    , ManySamples(isHullWanted ? tree.samples.size() : smallNode)
   {
   }
 
@@ -176,6 +186,11 @@ private:
     {
       return false;
     }
+    if (this->isLong() && !this->mayReachSamples(nodeIndex, shape))
+    {
+      this->Marks.set(nodeIndex, bandmarks::missed);
+      return false;
+    }
     if (!node.isSplit())
     {
       return this->visitEnd(nodeIndex, shape);
@@ -200,26 +215,17 @@ private:
   bool visitChild(const Node<TSample>& node, bool isUpper, const TShape& shape,
     const typename TShape::Bounds& bounds, Region& box)
   {
-    const std::size_t child = this->Tree.child(node, isUpper);
-    if (this->isLong() && !this->mayReachSamples(child, shape))
-    {
-      this->Marks.set(static_cast<std::size_t>(&node - this->Tree.nodes.data()), bandmarks::parted);
-      return false;
-    }
     double& bound = isUpper ? box.lower[node.axis] : box.upper[node.axis];
     const double former = bound;
     bound = node.plane;
-    const bool isDone = this->visit(child, shape, bounds, box);
+    const bool isDone = this->visit(this->Tree.child(node, isUpper), shape, bounds, box);
     bound = former;
     return isDone;
   }
 
   /// Whether the search visits so many nodes that bounding boxes of samples pay: as in the huge
   /// sphere of a sliver on the hull, which passes between a face of the hull and the samples.
-  bool isLong() const
-  {
-    return this->Visits - this->Begin > this->MaxVisits;
-  }
+  bool isLong() const { return this->Visits - this->Begin > this->ManyVisits; }
 
   /// Whether the shape may intersect the bounding box of a node's samples. Large nodes and nodes of
   /// few samples always pass, since their boxes are costly or hardly smaller than their regions.
@@ -227,17 +233,12 @@ private:
   bool mayReachSamples(std::size_t nodeIndex, const TShape& shape)
   {
     const Node<TSample>& node = this->Tree.nodes[nodeIndex];
-    if (node.count() <= fewSamples || node.count() > this->MaxBoxed || !this->Tree.hasOnlyOwn(node))
+    if (node.count() <= fewSamples || node.count() > this->ManySamples || !this->Tree.hasOnlyOwn(node))
     {
       return true;
     }
-    const Region box = this->Boxes.at(nodeIndex, [&]() { return boxOfSamples(this->Tree, node); });
-    typename TShape::Bounds bounds{};
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      shape.narrow(bounds, axis, box.lower[axis], box.upper[axis]);
-    }
-    return shape.mayHold(bounds);
+    return shape.mayReach(
+      this->Boxes.at(nodeIndex, [&]() { return boxOfSamples(this->Tree, node); }));
   }
 
   /// The same for a node without children.
@@ -291,8 +292,8 @@ private:
   const PartialTriangulation& Band;
   NodeMarks& Marks;
   ConcurrentMemo<Region>& Boxes;
-  const std::size_t MaxVisits; // of searches without boxes of samples
-  const std::size_t MaxBoxed;  // samples of a node with such a box
+  const std::size_t ManyVisits;
+  const std::size_t ManySamples;
   std::size_t Cell = 0;
   std::optional<std::size_t> Found;
   std::size_t Visits = 0;

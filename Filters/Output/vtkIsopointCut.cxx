@@ -21,6 +21,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <set>
+#include <string>
 
 vtkIsopointCut::vtkIsopointCut(vtkImplicitFunction* function)
   : Function(function)
@@ -72,6 +74,20 @@ double vtkIsopointCut::Evaluate(const isopoint::Vector& place) const
   return this->Function->FunctionValue(place.data());
 }
 
+namespace
+{
+
+/// Whether several threads may evaluate a function at once. Only exact classes are known to: others
+/// may use caches, functions of their own, or code of Python.
+bool isForThreads(vtkImplicitFunction* function)
+{
+  static const std::set<std::string> classes{ "vtkBox", "vtkCone", "vtkCylinder", "vtkPVBox",
+    "vtkPVCylinder", "vtkPVPlane", "vtkPlane", "vtkQuadric", "vtkSphere", "vtkSuperquadric" };
+  return classes.count(function->GetClassName()) > 0;
+}
+
+} // namespace
+
 vtkSmartPointer<vtkDoubleArray> vtkIsopointCut::FindValues(
   const isopoint::Execution& execution, const vtkIsopointBlock& block) const
 {
@@ -86,13 +102,13 @@ vtkSmartPointer<vtkDoubleArray> vtkIsopointCut::FindValues(
     numbers[i] = this->Evaluate(position);
   };
   const auto count = static_cast<std::size_t>(block.GetNumberOfSamples());
-  if (this->IsOfPlane)
+  if (this->IsOfPlane || isForThreads(this->Function))
   {
     isopoint::forEachIndex(execution, count, evaluate);
   }
   else
   {
-    isopoint::forEachInOrder(execution, count, evaluate); // VTK's functions may not be for threads
+    isopoint::forEachInOrder(execution, count, evaluate);
   }
   return values;
 }
@@ -146,12 +162,11 @@ void moveTuple(double share, vtkDataArray* from, vtkIdType sample, vtkDataArray*
 
 void vtkIsopointCut::MovePoints(const isopoint::Execution& execution,
   const std::vector<isopoint::ExtractedIsosurface>& surfaces, vtkDataSetAttributes* ends,
-  const char* positions, vtkPolyData* slice) const
+  vtkDataArray* positions, vtkPolyData* slice) const
 {
   using isopoint::operator+;
   using isopoint::operator-;
   using isopoint::operator*;
-  vtkDataArray* const places = ends->GetArray(positions);
   vtkPoints* const points = slice->GetPoints();
   std::vector<std::pair<vtkDataArray*, vtkDataArray*>> arrays; // of samples, of the slice
   for (int k = 0; k < slice->GetPointData()->GetNumberOfArrays(); ++k)
@@ -179,12 +194,12 @@ void vtkIsopointCut::MovePoints(const isopoint::Execution& execution,
         const isopoint::IsopointEdge& edge = surface.edgeOf(index);
         isopoint::Vector end;
         auto sample = static_cast<vtkIdType>(edge.second);
-        places->GetTuple(sample, end.data());
+        positions->GetTuple(sample, end.data());
         double after = this->Evaluate(end) - level;
         if ((after >= 0.0) == (before >= 0.0))
         {
           sample = static_cast<vtkIdType>(edge.first);
-          places->GetTuple(sample, end.data());
+          positions->GetTuple(sample, end.data());
           after = this->Evaluate(end) - level;
         }
         const isopoint::Vector way = end - begin;

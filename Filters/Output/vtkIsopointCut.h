@@ -15,6 +15,7 @@ namespace isopoint
 {
 struct Execution;
 }
+class vtkDataArray;
 class vtkDataSetAttributes;
 class vtkDoubleArray;
 class vtkImplicitFunction;
@@ -44,15 +45,16 @@ public:
 
   /// Moves the points of a slice towards the sample at the end of their edge on the other side of
   /// the function, as far as it has their isovalue, and arrays of numbers with them.
-  /// @param ends the attributes of the samples at ends of edges, with their positions
-  /// @param positions the name of these
+  /// @param ends the attributes of the samples at ends of edges
+  /// @param positions of these samples
   void MovePoints(const isopoint::Execution& execution,
     const std::vector<isopoint::ExtractedIsosurface>& surfaces, vtkDataSetAttributes* ends,
-    const char* positions, vtkPolyData* slice) const;
+    vtkDataArray* positions, vtkPolyData* slice) const;
 
-private:
+  /// The value at a place.
   double Evaluate(const isopoint::Vector& place) const;
 
+private:
   vtkImplicitFunction* Function;
   bool IsOfPlane = false;
   isopoint::Vector Normal{};

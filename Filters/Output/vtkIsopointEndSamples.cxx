@@ -154,6 +154,7 @@ vtkSmartPointer<vtkDataArray> gatherScalars(const std::vector<vtkIsopointBlock>&
   auto scalars = vtkSmartPointer<vtkDataArray>::Take(
     vtkDataArray::CreateDataArray(areFloat ? VTK_FLOAT : VTK_DOUBLE));
   scalars->SetName(blocks.front().Scalars->GetName());
+  scalars->SetNumberOfComponents(blocks.front().Scalars->GetNumberOfComponents());
   vtkAllocateTuples(scalars, static_cast<vtkIdType>(ids.size()));
   for (std::size_t block = 0; block < blocks.size(); ++block)
   {
@@ -161,8 +162,11 @@ vtkSmartPointer<vtkDataArray> gatherScalars(const std::vector<vtkIsopointBlock>&
     for (std::size_t i = range.begin; i < range.end; ++i)
     {
       const auto from = static_cast<vtkIdType>(ids[i] - range.firstId);
-      const double value = blocks[block].Scalars->GetComponent(from, 0);
-      scalars->SetComponent(static_cast<vtkIdType>(i), 0, value);
+      for (int component = 0; component < scalars->GetNumberOfComponents(); ++component)
+      {
+        scalars->SetComponent(static_cast<vtkIdType>(i), component,
+          blocks[block].Scalars->GetComponent(from, component));
+      }
     }
   }
   return scalars;

@@ -193,35 +193,38 @@ double heldBy(vtkDataArray* array, double number)
   return isHeld ? std::trunc(number) : 0.0;
 }
 
-} // namespace
-
-vtkIsopointProbedArray::vtkIsopointProbedArray(const vtkIsopointSampleArray& array,
-  const std::vector<vtkIsopointBlock>& blocks, const isopoint::ProbeOptions& options,
-  vtkIdType places, bool isAlone)
-  : Type(options.method == isopoint::PlaceMethod::Nearest ? array.Type : VTK_DOUBLE)
+/// Memory for an array at places: doubles unless samples can be copied.
+/// @param type of the result
+vtkSmartPointer<vtkDataArray> newArrayAt(
+  vtkIdType places, const vtkIsopointSampleArray& array, int type, bool isAlone)
 {
   // Bits share bytes, so that threads cannot write them; ranks exchange doubles.
-  const bool isTaken = this->Type != VTK_DOUBLE && this->Type != VTK_BIT && isAlone;
-  this->Result = vtkSmartPointer<vtkDataArray>::Take(
-    vtkDataArray::CreateDataArray(isTaken ? this->Type : VTK_DOUBLE));
-  this->Result->SetName(array.Name.c_str());
-  this->Result->SetNumberOfComponents(array.Components);
+  const bool isCopied = type != VTK_BIT && isAlone;
+  auto result = vtkSmartPointer<vtkDataArray>::Take(
+    vtkDataArray::CreateDataArray(isCopied ? type : VTK_DOUBLE));
+  result->SetName(array.Name.c_str());
+  result->SetNumberOfComponents(array.Components);
   if (!array.Parts.empty())
   {
-    this->Result->CopyComponentNames(array.Parts.front());
+    result->CopyComponentNames(array.Parts.front());
   }
-  vtkAllocateTuples(this->Result, places);
-  vtkReadIsopointArray(array, blocks, this->Probed);
-  if (!isTaken)
+  vtkAllocateTuples(result, places);
+  return result;
+}
+
+/// What to probe for an array.
+isopoint::ProbedArray probedArray(const vtkIsopointSampleArray& array,
+  const std::vector<vtkIsopointBlock>& blocks, double nothing, vtkDataArray* result)
+{
+  isopoint::ProbedArray probed;
+  vtkReadIsopointArray(array, blocks, probed);
+  if (auto* const doubles = vtkAOSDataArrayTemplate<double>::FastDownCast(result))
   {
-    this->Probed.values =
-      vtkAOSDataArrayTemplate<double>::FastDownCast(this->Result)->GetPointer(0);
-    return;
+    probed.values = doubles->GetPointer(0);
+    return probed;
   }
-  this->Probed.take = [result = this->Result.Get(), parts = array.Parts,
-                        sampleIds = vtkIsopointSampleIds(blocks),
-                        nothing = heldBy(this->Result, options.outsideNumber)](
-                        std::size_t place, const std::uint64_t* id)
+  probed.take = [result, parts = array.Parts, sampleIds = vtkIsopointSampleIds(blocks),
+                  nothing = heldBy(result, nothing)](std::size_t place, const std::uint64_t* id)
   {
     const auto to = static_cast<vtkIdType>(place);
     if (id)
@@ -235,33 +238,66 @@ vtkIsopointProbedArray::vtkIsopointProbedArray(const vtkIsopointSampleArray& arr
       vtkSetIsopointNumber(result, to, component, nothing);
     }
   };
+  return probed;
 }
 
-vtkSmartPointer<vtkDataArray> vtkIsopointProbedArray::Finish()
+/// An array in a type. @throws std::bad_alloc
+vtkSmartPointer<vtkDataArray> converted(const vtkSmartPointer<vtkDataArray>& array, int type)
 {
-  if (this->Result->GetDataType() == this->Type)
+  if (array->GetDataType() == type)
   {
-    return this->Result;
+    return array;
   }
-  const auto converted =
-    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Type));
-  converted->SetName(this->Result->GetName());
-  converted->SetNumberOfComponents(this->Result->GetNumberOfComponents());
-  converted->CopyComponentNames(this->Result);
-  vtkAllocateTuples(converted, this->Result->GetNumberOfTuples());
-  for (vtkIdType i = 0; i < converted->GetNumberOfTuples(); ++i)
+  auto result = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
+  result->SetName(array->GetName());
+  result->SetNumberOfComponents(array->GetNumberOfComponents());
+  result->CopyComponentNames(array);
+  vtkAllocateTuples(result, array->GetNumberOfTuples());
+  for (vtkIdType i = 0; i < result->GetNumberOfTuples(); ++i)
   {
-    for (int component = 0; component < converted->GetNumberOfComponents(); ++component)
+    for (int component = 0; component < result->GetNumberOfComponents(); ++component)
     {
-      vtkSetIsopointNumber(
-        converted, i, component, heldBy(converted, this->Result->GetComponent(i, component)));
+      vtkSetIsopointNumber(result, i, component, heldBy(result, array->GetComponent(i, component)));
     }
   }
-  return converted;
+  return result;
+}
+
+} // namespace
+
+std::vector<vtkSmartPointer<vtkDataArray>> vtkProbeIsopointArrays(
+  const std::vector<vtkIsopointSampleArray>& arrays, const std::vector<vtkIsopointBlock>& blocks,
+  const isopoint::ProbeOptions& options, std::size_t places, bool isAlone,
+  const std::function<void(const std::vector<isopoint::ProbedArray>&)>& probe)
+{
+  std::vector<vtkSmartPointer<vtkDataArray>> results;
+  std::vector<isopoint::ProbedArray> probed;
+  const auto typeOf = [&](const vtkIsopointSampleArray& array)
+  { return options.method == isopoint::PlaceMethod::Nearest ? array.Type : VTK_DOUBLE; };
+  for (const vtkIsopointSampleArray& array : arrays)
+  {
+    results.push_back(newArrayAt(static_cast<vtkIdType>(places), array, typeOf(array), isAlone));
+    probed.push_back(probedArray(array, blocks, options.outsideNumber, results.back()));
+  }
+  probe(probed);
+  for (std::size_t i = 0; i < results.size(); ++i)
+  {
+    results[i] = converted(results[i], typeOf(arrays[i]));
+  }
+  return results;
 }
 
 void vtkReplaceIsopointNumbers(vtkDataArray* found, vtkDataArray* array)
 {
+  const int type = array->GetDataType();
+  if (type == found->GetDataType() && type != VTK_FLOAT && type != VTK_DOUBLE)
+  {
+    for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+    {
+      array->SetTuple(i, i, found); // double does not hold all integers of 64 bits
+    }
+    return;
+  }
   for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
   {
     for (int component = 0; component < array->GetNumberOfComponents(); ++component)

@@ -9,6 +9,8 @@
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
+#include <cstddef>
+#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -41,27 +43,14 @@ std::vector<vtkIsopointSampleArray> vtkListIsopointArrays(isopoint::ProcessGroup
 /// @param rule which arrays are not
 isopoint::Message vtkDescribeLeftOut(const std::set<std::string>& names, const std::string& rule);
 
-/// Memory for an array at places: double, or for PlaceMethod::Nearest the type of the array.
-class vtkIsopointProbedArray
-{
-public:
-  /// @param isAlone whether the samples are those of this process
-  /// @throws std::bad_alloc
-  vtkIsopointProbedArray(const vtkIsopointSampleArray& array,
-    const std::vector<vtkIsopointBlock>& blocks, const isopoint::ProbeOptions& options,
-    vtkIdType places, bool isAlone);
-
-  /// For IsosurfaceExtractor::probe().
-  isopoint::ProbedArray& GetProbed() { return this->Probed; }
-
-  /// The result, once it is probed. @throws std::bad_alloc
-  vtkSmartPointer<vtkDataArray> Finish();
-
-private:
-  int Type; // of the result
-  vtkSmartPointer<vtkDataArray> Result;
-  isopoint::ProbedArray Probed;
-};
+/// The values of arrays at places: double, or for PlaceMethod::Nearest of the type of the array.
+/// @param isAlone whether the samples are those of this process
+/// @param probe calls IsosurfaceExtractor::probe()
+/// @throws std::bad_alloc, and what probe throws
+std::vector<vtkSmartPointer<vtkDataArray>> vtkProbeIsopointArrays(
+  const std::vector<vtkIsopointSampleArray>& arrays, const std::vector<vtkIsopointBlock>& blocks,
+  const isopoint::ProbeOptions& options, std::size_t places, bool isAlone,
+  const std::function<void(const std::vector<isopoint::ProbedArray>&)>& probe);
 
 /// Replaces the numbers of an array by those of another one that are finite, integers rounded.
 void vtkReplaceIsopointNumbers(vtkDataArray* found, vtkDataArray* array);

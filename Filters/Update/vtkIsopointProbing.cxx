@@ -3,6 +3,8 @@
 
 #include "Common/vtkIsopointArrays.h"
 #include "Core/Base/Execution.h"
+#include "Core/Base/Region.h"
+#include "Core/Base/Vector.h"
 #include "Core/Failure.h"
 #include "Input/vtkIsopointInput.h"
 #include "Input/vtkIsopointNumbers.h"
@@ -17,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 
 vtkIsopointProbing::vtkIsopointProbing(vtkIsopointUpdate& update)
   : Update(update)
@@ -64,38 +67,54 @@ const std::vector<vtkIsopointBlock>& vtkIsopointProbing::GetBlocks() const
   return this->Cloud->Blocks;
 }
 
+namespace
+{
+
+/// The bounding box of a block's samples that are in use.
+isopoint::Region boxOf(const isopoint::Execution& execution, const vtkIsopointBlock& block)
+{
+  const vtkIsopointPositions positions(block.Positions);
+  isopoint::Region box = isopoint::emptyRegion;
+  std::mutex mutex;
+  constexpr std::size_t grain = 65536;
+  isopoint::forBatches(execution, static_cast<std::size_t>(block.GetNumberOfSamples()), 16 * grain,
+    grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      isopoint::Region part = isopoint::emptyRegion;
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        isopoint::Vector position;
+        positions(i, position.data());
+        const bool isExcluded = block.Ghosts && (block.Ghosts->GetValue(static_cast<vtkIdType>(i)) &
+                                                  vtkIsopointBlock::Excluding) != 0;
+        if (!isExcluded && isopoint::isFinite(position))
+        {
+          part = isopoint::united(part, { position, position });
+        }
+      }
+      const std::lock_guard<std::mutex> lock(mutex);
+      box = isopoint::united(box, part);
+    });
+  return box;
+}
+
+} // namespace
+
 void vtkIsopointProbing::FindBounds(double bounds[6]) const
 {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  double ends[2][3] = { { infinity, infinity, infinity }, { -infinity, -infinity, -infinity } };
+  isopoint::Region box = isopoint::emptyRegion;
   for (const vtkIsopointBlock& block : this->GetBlocks())
   {
-    const vtkIsopointPositions positions(block.Positions);
-    for (vtkIdType i = 0; i < block.GetNumberOfSamples(); ++i)
-    {
-      double position[3];
-      positions(static_cast<std::size_t>(i), position);
-      const bool isExcluded =
-        block.Ghosts && (block.Ghosts->GetValue(i) & vtkIsopointBlock::Excluding) != 0;
-      if (isExcluded ||
-          !std::all_of(position, position + 3, [](double x) { return std::isfinite(x); }))
-      {
-        continue;
-      }
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        ends[0][axis] = std::min(ends[0][axis], position[axis]);
-        ends[1][axis] = std::max(ends[1][axis], position[axis]);
-      }
-    }
+    box = isopoint::united(box, boxOf(this->Update.GetExecution(), block));
   }
   isopoint::ProcessGroup& processes = this->Update.GetProcesses();
   for (int axis = 0; axis < 3; ++axis)
   {
     bounds[2 * axis] =
-      isopoint::fromOrderedKey(~processes.maximum(~isopoint::orderedKey(ends[0][axis])));
+      isopoint::fromOrderedKey(~processes.maximum(~isopoint::orderedKey(box.lower[axis])));
     bounds[2 * axis + 1] =
-      isopoint::fromOrderedKey(processes.maximum(isopoint::orderedKey(ends[1][axis])));
+      isopoint::fromOrderedKey(processes.maximum(isopoint::orderedKey(box.upper[axis])));
   }
   if (bounds[0] > bounds[1])
   {
@@ -134,19 +153,14 @@ std::vector<vtkIsopointProbing::Array> vtkIsopointProbing::ProbeAll(
   const auto isOwn = [&](const vtkIsopointSampleArray& array)
   { return own.count(array.Name) > 0 && this->Counts.Own.insert(array.Name).second; };
   arrays.erase(std::remove_if(arrays.begin(), arrays.end(), isOwn), arrays.end());
-  std::vector<vtkIsopointProbedArray> results;
-  std::vector<isopoint::ProbedArray> probed;
-  for (const vtkIsopointSampleArray& array : arrays)
-  {
-    results.emplace_back(array, this->GetBlocks(), options, static_cast<vtkIdType>(places.size()),
-      processes.size() == 1);
-    probed.push_back(results.back().GetProbed());
-  }
-  this->Probe(places, options, probed, kinds);
+  const std::vector<vtkSmartPointer<vtkDataArray>> results =
+    vtkProbeIsopointArrays(arrays, this->GetBlocks(), options, places.size(), processes.size() == 1,
+      [&](const std::vector<isopoint::ProbedArray>& probed)
+      { this->Probe(places, options, probed, kinds); });
   std::vector<Array> found;
   for (std::size_t i = 0; i < results.size(); ++i)
   {
-    found.push_back({ results[i].Finish(), arrays[i].Attribute });
+    found.push_back({ results[i], arrays[i].Attribute });
   }
   return found;
 }

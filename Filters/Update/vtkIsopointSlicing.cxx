@@ -37,15 +37,11 @@
 namespace
 {
 
-/// The name of positions among arrays of samples.
-constexpr const char* positionsName = "vtkIsopointPositions";
-
-/// The options that ranks must share. Of functions other than planes only the class is compared.
-std::string textOf(const vtkIsopointSlicing::Options& options, const vtkIsopointCut& cut)
+/// The options that ranks must share, without the function.
+std::string textOf(const vtkIsopointSlicing::Options& options)
 {
   std::ostringstream text;
-  text << std::hexfloat << options.Function->GetClassName() << " " << options.AreFits << " "
-       << cut.GetLevel() + 0.0;
+  text << std::hexfloat << (options.Method ? static_cast<int>(*options.Method) : -1);
   for (const double offset : options.Offsets)
   {
     text << " " << offset + 0.0;
@@ -55,12 +51,11 @@ std::string textOf(const vtkIsopointSlicing::Options& options, const vtkIsopoint
   return text.str();
 }
 
-/// The attributes of a block's samples, and their positions.
-vtkSmartPointer<vtkPointData> withPositions(const vtkIsopointBlock& block)
+/// The positions of a block's samples.
+vtkSmartPointer<vtkDoubleArray> positionsOf(const vtkIsopointBlock& block)
 {
   const vtkIsopointPositions read(block.Positions);
-  const auto positions = vtkSmartPointer<vtkDoubleArray>::New();
-  positions->SetName(positionsName);
+  auto positions = vtkSmartPointer<vtkDoubleArray>::New();
   positions->SetNumberOfComponents(3);
   vtkAllocateTuples(positions, block.GetNumberOfSamples());
   double* const numbers = positions->GetPointer(0);
@@ -68,10 +63,7 @@ vtkSmartPointer<vtkPointData> withPositions(const vtkIsopointBlock& block)
   {
     read(i, numbers + 3 * i);
   }
-  auto attributes = vtkSmartPointer<vtkPointData>::New();
-  attributes->ShallowCopy(block.Attributes);
-  attributes->AddArray(positions);
-  return attributes;
+  return positions;
 }
 
 /// Whether no sample is beyond a slice, up to rounding: as by a box in the bounds of the samples.
@@ -149,7 +141,7 @@ void vtkIsopointSlicing::Slice(
   const vtkIsopointCut cut(options.Function);
   cut.Check();
   isopoint::checkOptions(options.Core);
-  this->Update.CheckOptionsOnRanks(textOf(options, cut), "slice");
+  this->Update.CheckOptionsOnRanks(textOf(options), "slice");
   const int ghostLevels = this->Update.GetGhostLevels(outputInfo);
 
   vtkIsopointCloud& cloud = this->Load(cut, inputInfo);
@@ -162,7 +154,7 @@ void vtkIsopointSlicing::Slice(
   constexpr double loaded = 0.2; // shares of the progress
   constexpr double extracted = 0.5;
   std::vector<isopoint::ExtractedIsosurface> surfaces = isopoint::extractIsovalues(
-    isopoint::partOf(this->Update.GetExecution(), loaded, options.AreFits ? extracted : 1.0),
+    isopoint::partOf(this->Update.GetExecution(), loaded, options.Method ? extracted : 1.0),
     cloud.Extractor, options.Core, ghostLevels, this->Report);
   auto* const output = vtkPolyData::SafeDownCast(vtkDataObject::GetData(outputInfo));
   this->FillOutput(options, cut, cloud, surfaces, output);
@@ -207,11 +199,44 @@ void vtkIsopointSlicing::CheckValues(const vtkIsopointCloud& cloud) const
   }
 }
 
+/// Compares the functions of the ranks, at some samples of each.
+void vtkIsopointSlicing::CheckFunctionOnRanks(
+  const vtkIsopointCut& cut, const vtkIsopointCloud& cloud)
+{
+  if (!this->Update.IsOnRanks())
+  {
+    return;
+  }
+  constexpr vtkIdType ofBlock = 8;
+  std::vector<double> own;
+  for (const vtkIsopointBlock& block : cloud.Blocks)
+  {
+    const vtkIsopointPositions positions(block.Positions);
+    const vtkIdType count = block.GetNumberOfSamples();
+    for (vtkIdType i = 0; i < std::min(ofBlock, count); ++i)
+    {
+      own.resize(own.size() + 3);
+      positions(static_cast<std::size_t>(i * count / ofBlock), &own[own.size() - 3]);
+    }
+  }
+  std::ostringstream text;
+  text << std::hexfloat << cut.GetLevel() + 0.0;
+  for (const std::vector<double>& places : this->Update.GetProcesses().gather(own))
+  {
+    for (std::size_t i = 0; i < places.size(); i += 3)
+    {
+      text << " " << cut.Evaluate({ places[i], places[i + 1], places[i + 2] }) + 0.0;
+    }
+  }
+  this->Update.CheckOptionsOnRanks(text.str(), "slice");
+}
+
 vtkIsopointCloud& vtkIsopointSlicing::Load(const vtkIsopointCut& cut, vtkInformation* inputInfo)
 {
   this->Update.CollectBlocks(inputInfo, vtkIsopointArrayChoice());
   vtkIsopointCloud& cloud =
     this->Update.FindCloud(0, this->Update.GetInput().GetBlocks().size(), 0, cut.GetState());
+  this->CheckFunctionOnRanks(cut, cloud);
   cloud.Types.areFloatValues = false;
   constexpr double evaluated = 0.05; // shares of the progress
   constexpr double loaded = 0.2;
@@ -241,13 +266,13 @@ void vtkIsopointSlicing::FillOutput(const Options& options, const vtkIsopointCut
 {
   const isopoint::Execution& execution = this->Update.GetExecution();
   std::vector<vtkIsopointBlock> blocks = cloud.Blocks;
-  std::vector<vtkSmartPointer<vtkPointData>> attributes;
+  std::vector<vtkSmartPointer<vtkDoubleArray>> positions; // instead of values; owns them
   for (vtkIsopointBlock& block : blocks)
   {
     if (!cut.IsPlane())
     {
-      attributes.push_back(withPositions(block));
-      block.Attributes = attributes.back();
+      positions.push_back(positionsOf(block));
+      block.Scalars = positions.back();
     }
   }
   const vtkIsopointEndSamples samples(this->Update.GetProcesses(), blocks, surfaces);
@@ -259,22 +284,22 @@ void vtkIsopointSlicing::FillOutput(const Options& options, const vtkIsopointCut
     execution, samples.GetAttributes(), samples.GetScalars(), surfaces, output->GetPointData());
   if (!cut.IsPlane())
   {
-    output->GetPointData()->RemoveArray(positionsName);
-    cut.MovePoints(execution, surfaces, samples.GetAttributes(), positionsName, output);
+    cut.MovePoints(execution, surfaces, samples.GetAttributes(), samples.GetScalars(), output);
   }
   std::set<std::string> others;
   vtkListIsopointArrays(this->Update.GetProcesses(), cloud.Blocks, others);
   std::copy_if(others.begin(), others.end(), std::inserter(this->Dropped, this->Dropped.end()),
     [&](const std::string& name) { return !output->GetPointData()->HasArray(name.c_str()); });
-  if (options.AreFits)
+  if (options.Method)
   {
-    this->Fit(cloud, output);
+    this->Fit(*options.Method, cloud, output);
   }
 }
 
-/// Replaces arrays by those of fits, where there are some. They extrapolate at rims: edges of
+/// Replaces arrays by those of a method, where it has values. Fits extrapolate at rims: edges of
 /// slivers on the convex hull are far too long for linear interpolation.
-void vtkIsopointSlicing::Fit(vtkIsopointCloud& cloud, vtkPolyData* output)
+void vtkIsopointSlicing::Fit(
+  isopoint::PlaceMethod method, vtkIsopointCloud& cloud, vtkPolyData* output)
 {
   std::vector<isopoint::Vector> places(static_cast<std::size_t>(output->GetNumberOfPoints()));
   for (std::size_t i = 0; i < places.size(); ++i)
@@ -283,31 +308,28 @@ void vtkIsopointSlicing::Fit(vtkIsopointCloud& cloud, vtkPolyData* output)
   }
   isopoint::ProcessGroup& processes = this->Update.GetProcesses();
   isopoint::ProbeOptions options;
+  options.method = method;
   options.outside = isopoint::OutsideStrategy::Extrapolate;
   std::set<std::string> dropped;
-  std::vector<vtkIsopointProbedArray> results;
-  std::vector<isopoint::ProbedArray> probed;
-  for (const vtkIsopointSampleArray& array :
-    vtkListIsopointArrays(processes, cloud.Blocks, dropped))
-  {
-    results.emplace_back(
-      array, cloud.Blocks, options, output->GetNumberOfPoints(), processes.size() == 1);
-    probed.push_back(results.back().GetProbed());
-  }
-  if (probed.empty())
+  const std::vector<vtkIsopointSampleArray> arrays =
+    vtkListIsopointArrays(processes, cloud.Blocks, dropped);
+  if (arrays.empty())
   {
     return;
   }
   constexpr double extracted = 0.5; // share of the progress
-  cloud.Extractor.probe(
-    isopoint::partOf(this->Update.GetExecution(), extracted, 1.0), places, options, probed);
-  for (vtkIsopointProbedArray& result : results)
+  for (const vtkSmartPointer<vtkDataArray>& found :
+    vtkProbeIsopointArrays(arrays, cloud.Blocks, options, places.size(), processes.size() == 1,
+      [&](const std::vector<isopoint::ProbedArray>& probed)
+      {
+        cloud.Extractor.probe(
+          isopoint::partOf(this->Update.GetExecution(), extracted, 1.0), places, options, probed);
+      }))
   {
-    const vtkSmartPointer<vtkDataArray> fitted = result.Finish();
-    vtkDataArray* const array = output->GetPointData()->GetArray(fitted->GetName());
+    vtkDataArray* const array = output->GetPointData()->GetArray(found->GetName());
     if (array)
     {
-      vtkReplaceIsopointNumbers(fitted, array);
+      vtkReplaceIsopointNumbers(found, array);
     }
   }
 }

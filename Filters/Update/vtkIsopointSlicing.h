@@ -4,11 +4,13 @@
 
 #include "Core/ExtractionRequest.h"
 #include "Core/Options.h"
+#include "Core/Places/ProbeRequest.h"
 #include "Core/Report.h"
 #include "Input/vtkIsopointInputState.h"
 
 #include "vtkSmartPointer.h"
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -31,8 +33,8 @@ public:
   {
     isopoint::Options Core; // of the triangles
     vtkSmartPointer<vtkImplicitFunction> Function;
-    std::vector<double> Offsets; // values of the function
-    bool AreFits = true;         // whether arrays come from fits
+    std::vector<double> Offsets;                 // values of the function
+    std::optional<isopoint::PlaceMethod> Method; // of arrays; none: linear along edges
   };
 
   /// @param update of the filter; must outlive this
@@ -48,10 +50,11 @@ public:
 private:
   void Slice(const Options& options, vtkInformation* inputInfo, vtkInformation* outputInfo);
   void CheckValues(const vtkIsopointCloud& cloud) const;
+  void CheckFunctionOnRanks(const vtkIsopointCut& cut, const vtkIsopointCloud& cloud);
   vtkIsopointCloud& Load(const vtkIsopointCut& cut, vtkInformation* inputInfo);
   void FillOutput(const Options& options, const vtkIsopointCut& cut, vtkIsopointCloud& cloud,
     std::vector<isopoint::ExtractedIsosurface>& surfaces, vtkPolyData* output);
-  void Fit(vtkIsopointCloud& cloud, vtkPolyData* output);
+  void Fit(isopoint::PlaceMethod method, vtkIsopointCloud& cloud, vtkPolyData* output);
   std::vector<isopoint::Message> Describe(isopoint::OptionNaming naming) const;
 
   vtkIsopointUpdate& Update;

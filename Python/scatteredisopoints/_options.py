@@ -100,11 +100,12 @@ def make_slice_options(given: Mapping[str, Any]) -> Options:
     return options
 
 
-def with_fits(interpolation: Any) -> bool:
-    """Whether arrays of a slice come from fits. Raises ValueError for invalid values."""
-    if interpolation not in ("fits", "linear"):
-        raise ValueError(f'interpolation cannot be {interpolation!r}: it is "fits" or "linear"')
-    return bool(interpolation == "fits")
+def method_of_slice(interpolation: Any) -> Optional[str]:
+    """The method of probe() for the arrays of a slice; None: linear. Raises ValueError for invalid values."""
+    methods = {"fits": "BLEND", "linear": None, "nearest": "NEAREST"}
+    if not isinstance(interpolation, str) or interpolation not in methods:
+        raise ValueError(f'interpolation cannot be {interpolation!r}: it is "fits", "linear" or "nearest"')
+    return methods[interpolation]
 
 
 def thread_count(threads: Optional[int]) -> int:

@@ -292,7 +292,7 @@ class ScatteredAccessor:
 
         Notes
         -----
-        A slice along the normal of the last one takes 0.8 of its time, two thirds with linear interpolation.
+        A slice along the normal of the last one takes a fraction of its time.
 
         Examples
         --------

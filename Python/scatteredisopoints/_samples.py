@@ -193,6 +193,11 @@ class Samples:
             np.any(masks, axis=0).view(np.uint8) if masks else None)
         self._held = key
 
+    def _hold_values(self, callbacks: Mapping[str, Any]) -> None:
+        """Makes the samples' own values those that the extractor holds, after those of a slice."""
+        if self._held != _VALUES and self._values is not None:
+            self._hold(_VALUES, readable("values", as_numpy(self._values)), [self._excluded, self._masked], callbacks)
+
     def _held_range(self) -> tuple[float, float]:
         range_ = (2 * c_double)()
         _library.get_value_range(self._extractor, byref(range_))
@@ -253,9 +258,7 @@ class Samples:
             if self._values is None:
                 raise ValueError("The samples were made without values: call replace_values().")
             _library.run(_library.set_threads, self._extractor, most_threads)
-            if self._held != _VALUES:  # but those of a slice
-                self._hold(_VALUES, readable("values", as_numpy(self._values)), [self._excluded, self._masked],
-                           {**callbacks, "progress": None})
+            self._hold_values({**callbacks, "progress": None})
             surface = self._surface(levels, chosen, callbacks)
             value_type, masked = self._value_type, self._masked
         messages = []
@@ -308,7 +311,7 @@ class Samples:
     ) -> Isosurface:
         """Slices the samples: :func:`slice_samples` describes parameters, result and errors.
 
-        A slice along the normal of the last one takes 0.8 of its time, two thirds with linear interpolation.
+        A slice along the normal of the last one takes a fraction of its time.
 
         Parameters
         ----------
@@ -387,8 +390,9 @@ class Samples:
         return found if with_gradients else found[0]
 
     def _probed(self, points: np.ndarray, numbers: Mapping[str, np.ndarray], options: _library.ProbeOptions,
-                with_gradients: bool, threads: Optional[int], report: Any) -> tuple[dict, dict, np.ndarray]:
-        """Values, gradients and kinds of places."""
+                with_gradients: bool, threads: Optional[int], report: Any, leaves_out: bool = True
+                ) -> tuple[dict, dict, np.ndarray]:
+        """Values, gradients and kinds of places, without samples that lack a value if these are to be left out."""
         is_nearest = options.method == CONSTANTS["method"]["NEAREST"]
         values, gradients = {}, {}
         for name, array in numbers.items():
@@ -400,17 +404,21 @@ class Samples:
         with self._exclusive():
             self._require_samples()
             _library.run(_library.set_threads, self._extractor, most_threads)
+            if leaves_out and self._skipped > 0:
+                self._hold_values({})
             _library.run_with(
                 _library.Callbacks(report), self._extractor, _library.probe, points,
                 [array.reshape(len(array), -1) for array in numbers.values()], len(numbers), byref(options),
                 list(zip(values.values(), gradients.values())), kinds)
         return values, gradients, kinds
 
-    def _describe_left_out(self) -> Iterator[str]:
-        """Messages about samples that take no part."""
-        skipped = self._skipped - (0 if self._excluded is None else np.count_nonzero(self._excluded))
+    def _describe_left_out(self, skipped: Optional[int] = None) -> Iterator[str]:
+        """Messages about samples that take no part. Give the number of those that a slice skips."""
+        lacking = "position or value is not finite, or masked" if skipped is None else "position is not finite"
+        skipped = self._skipped if skipped is None else skipped
+        skipped -= 0 if self._excluded is None else np.count_nonzero(self._excluded)
         if skipped > 0:
-            yield f"{skipped} of {len(self)} samples are left out: their position or value is not finite, or masked."
+            yield f"{skipped} of {len(self)} samples are left out: their {lacking}."
         if self._without_array:
             yield _datasets.describe_without_array(self._without_array, self._name).text
 
@@ -422,6 +430,10 @@ class Samples:
         if array is not None and is_gap.any():
             yield (f'{np.count_nonzero(is_gap)} of {len(self)} entries of "{array if isinstance(array, str) else name}"'
                    " are masked or not finite: results are those of the samples around.")
+
+    def _own_values(self) -> Any:
+        """The samples' values, NaN where they are masked."""
+        return self._values if self._masked is None else np.where(self._masked, np.nan, as_numpy(self._values))
 
     def _numbers_of(self, array: Any, name: str = "values") -> np.ndarray:
         """The numbers of an array, of a name of one, or the values for None."""

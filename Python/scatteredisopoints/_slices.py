@@ -13,7 +13,7 @@ from . import _datasets, _library
 from ._arrays import are_names, as_numpy, isovalues_of, readable
 from ._cuts import Cut, Normal, describe_empty, make_cut, rounded, shares_to_zero
 from ._isosurface import Isosurface
-from ._options import make_probe_options, make_slice_options, thread_count, with_fits
+from ._options import make_probe_options, make_slice_options, method_of_slice, thread_count
 from ._progress import Progress, part, shown_progress
 
 if TYPE_CHECKING:
@@ -23,14 +23,14 @@ if TYPE_CHECKING:
 def sliced(samples: Samples, normal: Optional[Normal], origin: Any, arrays: Any, function: Any, offsets: Any, interpolation: Any,
            threads: Optional[int], progress: Progress, options: Mapping[str, Any], stacklevel: int) -> Isosurface:
     """Samples.slice()."""
-    fits = with_fits(interpolation)
+    method = method_of_slice(interpolation)
     cut, level = make_cut(normal, origin, function, lambda: _center_of_bounds(samples))
     levels = [level + offset for offset in isovalues_of(offsets)]
     chosen = make_slice_options(options)
     of_samples = arrays_of(samples, arrays)
     with shown_progress(progress, "Slicing") as report:
-        made = make_slice(samples, cut, levels, chosen, of_samples, fits, threads, report)
-    texts = list(samples._describe_left_out())
+        made = make_slice(samples, cut, levels, chosen, of_samples, method, threads, report)
+    texts = list(samples._describe_left_out(made.skipped))
     if arrays is None and samples._differing:
         texts.append(_datasets.describe_differing(samples._differing))
     if len(made.isosurface) == 0:
@@ -50,10 +50,12 @@ class Slice:
     """Of the function at the samples."""
     dropped: int
     """The number of tetrahedra in gaps."""
+    skipped: int
+    """The number of samples without a finite position, and of hidden ones."""
 
 
 def make_slice(samples: Samples, cut: Cut, levels: list[float], options: _library.Options,
-               of_samples: Mapping[str, Any], fits: bool, threads: Optional[int], report: Any) -> Slice:
+               of_samples: Mapping[str, Any], method: Optional[str], threads: Optional[int], report: Any) -> Slice:
     """A slice at levels of a function, with arrays by name. Calls `report` with the share done."""
     threads = samples._threads if threads is None else threads
     most_threads = thread_count(threads)
@@ -62,16 +64,16 @@ def make_slice(samples: Samples, cut: Cut, levels: list[float], options: _librar
         _library.run(_library.set_threads, samples._extractor, most_threads)
         at_samples = _hold_cut(samples, cut, part(report, 0.0, 0.3))
         surface = samples._surface(levels, options, {"progress": part(report, 0.3, 0.6)})
-        held_range = samples._held_range()
+        held_range, skipped = samples._held_range(), _library.get_skipped_count(samples._extractor)
     points = _library.view(surface, _library.POINTS)
     found = samples._interpolated(surface, of_samples, None)
     if not cut.is_plane and at_samples is not None and len(points):
         points = _moved_onto(samples, cut, at_samples, surface, points, of_samples, found)
-    if fits and len(points):
-        _fit(samples, points, of_samples, found, threads, part(report, 0.6, 1.0))
+    if method is not None and len(points):
+        _fit(samples, points, of_samples, found, method, threads, part(report, 0.6, 1.0))
     triangles, maker = _library.view(surface, _library.TRIANGLES), replace(samples._maker, normals=None)
     return Slice(Isosurface(points, triangles, found, {}, maker, threads=threads), held_range,
-                 _library.get_dropped_count(surface))
+                 _library.get_dropped_count(surface), skipped)
 
 
 def arrays_of(samples: Samples, arrays: Any) -> dict[str, Any]:
@@ -81,7 +83,7 @@ def arrays_of(samples: Samples, arrays: Any) -> dict[str, Any]:
     elif arrays is not None:
         many = {arrays if isinstance(arrays, str) else "values": arrays}
     else:
-        return {**({} if samples._values is None else {samples._maker.scalars or "values": samples._values}),
+        return {**({} if samples._values is None else {samples._maker.scalars or "values": samples._own_values()}),
                 **(samples._arrays or {})}
     return {name: samples._numbers_of(array, str(name)) for name, array in many.items()}
 
@@ -106,10 +108,7 @@ def _hold_cut(samples: Samples, cut: Cut, report: Any) -> Optional[np.ndarray]:
     if lacking:
         raise ValueError(f"The cut function is not finite at {lacking} of {samples._count} samples. Choose one that is"
                          " finite everywhere.")
-    left_out = [samples._excluded]
-    if samples._values is not None:  # the same samples as for their isosurfaces, whose tree is kept
-        left_out += [samples._masked, ~np.isfinite(as_numpy(samples._values))]
-    samples._hold(cut.key, at_samples, left_out, {"progress": report})
+    samples._hold(cut.key, at_samples, [samples._excluded], {"progress": report})
     return at_samples
 
 
@@ -135,11 +134,14 @@ def _moved_onto(samples: Samples, cut: Cut, at_samples: np.ndarray, surface: _li
 
 
 def _fit(samples: Samples, points: np.ndarray, of_samples: Mapping[str, Any], found: dict[str, np.ndarray],
-         threads: Optional[int], report: Any) -> None:
-    """Replaces arrays at points by those of fits, where there are some. Fits extrapolate at rims: edges of slivers
+         method: str, threads: Optional[int], report: Any) -> None:
+    """Replaces arrays at points by those of a method of probe(), where it has values. Fits extrapolate at rims: edges of slivers
     on the convex hull are far too long for linear interpolation."""
     fitted = {name: samples._numbers_of(array, name) for name, array in of_samples.items()
               if samples._maker.uses.get(name) != _datasets.PEDIGREE_IDS}
-    values, _, _ = samples._probed(points, fitted, make_probe_options("BLEND", None), False, threads, report)
+    values, _, _ = samples._probed(points, fitted, make_probe_options(method, None), False, threads, report,
+                                   leaves_out=False)
     for name, numbers in values.items():
-        found[name] = np.where(np.isfinite(numbers), rounded(numbers, found[name].dtype), found[name])
+        dtype = found[name].dtype
+        exact = numbers if numbers.dtype == dtype else rounded(numbers, dtype)
+        found[name] = np.where(np.isfinite(numbers), exact, found[name])

@@ -10,11 +10,12 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from . import _datasets, _library
 from ._cuts import cut_by, describe_empty, is_outermost
-from ._options import OF_SLICES, make_slice_options, property_name
+from ._options import OF_SLICES, make_slice_options, method_of_slice, property_name
 from ._progress import part
 from ._slices import Slice, arrays_of, make_slice
 from ._vtk_algorithm import ContourValues, ScatteredAlgorithm, describe_left_out, in_properties, with_counts, with_properties
 
+INTERPOLATIONS = ("fits", "linear", "nearest")
 LOADED = 0.2  # share of the progress
 
 
@@ -24,7 +25,7 @@ class vtkScatteredSliceFilter(ContourValues, ScatteredAlgorithm):
     """Slices scattered samples by an implicit function: see the compiled class of this name."""
 
     COUNTS = ("Samples", "SkippedSamples", "ExtractedPoints")
-    FITS, LINEAR = range(2)
+    FITS, LINEAR, NEAREST = range(3)
 
     def __init__(self):
         super().__init__()
@@ -57,7 +58,8 @@ class vtkScatteredSliceFilter(ContourValues, ScatteredAlgorithm):
         options.keep_tetrahedra = self._values["KeepTree"]
         try:
             made = make_slice(samples, cut, levels, options, arrays_of(samples, None),
-                              self._values["Interpolation"] == self.FITS, None, part(self._advance, LOADED, 1.0))
+                              method_of_slice(INTERPOLATIONS[self._values["Interpolation"]]), None,
+                              part(self._advance, LOADED, 1.0))
         except ValueError as error:
             raise ValueError(in_properties(str(error), self._values["UsePanelNames"])) from None
         output.ShallowCopy(made.isosurface.polydata)

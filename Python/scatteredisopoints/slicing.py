@@ -48,7 +48,7 @@ def slice_samples(
         Values of the function on slices, one or several: for a plane distances along its normal.
     interpolation
         "fits": local polynomials, as :func:`probe` fits them with outside=None. "linear": linear along the edges
-        between samples.
+        between samples. "nearest": the value of the nearest sample, as for numbers of materials.
     threads, progress
         As in :func:`contour`.
     **options

@@ -9,14 +9,18 @@
 #include "vtkErrorCode.h"
 #include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
+#include "vtkObjectFactory.h"
 #include "vtkPlane.h"
+#include "vtkSMPTools.h"
 #include "vtkSphere.h"
 #include "vtkTransform.h"
 #include "vtkTypeInt64Array.h"
 #include "vtkTypeUInt64Array.h"
 
+#include <atomic>
 #include <cerrno>
 #include <limits>
+#include <thread>
 
 using namespace inputtesting;
 
@@ -209,6 +213,80 @@ TEST(SliceFilter, LargestIntegersStay)
         }
       }
     }
+  }
+}
+
+TEST(SliceFilter, NearestSamplesKeepNumbersOfMaterials)
+{
+  constexpr vtkTypeInt64 large = (vtkTypeInt64{ 1 } << 53) + 1; // not held by double
+  const auto cloud = newCloud(2000, VTK_DOUBLE);
+  cloud->GetPointData()->AddArray(arrayOf<vtkTypeInt64Array>(
+    "material", 2000, [&](vtkIdType i) { return placeOf(cloud, i)[0] < 0.0 ? 3 : large; }));
+  const auto plane = planeAt(0.0);
+  vtkNew<vtkSphere> sphere;
+  for (vtkImplicitFunction* const function :
+    std::initializer_list<vtkImplicitFunction*>{ plane, sphere })
+  {
+    const auto filter = sliceOf(cloud, function);
+    filter->SetInterpolation(Slice::NEAREST);
+    vtkPolyData* const output = updated(filter);
+    auto* const found =
+      vtkTypeInt64Array::SafeDownCast(output->GetPointData()->GetArray("material"));
+    vtkDataArray* const position = output->GetPointData()->GetArray("position");
+    ASSERT_GT(found->GetNumberOfTuples(), 100);
+    for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+    {
+      ASSERT_EQ(found->GetValue(i), position->GetComponent(i, 0) < 0.0 ? 3 : large);
+    }
+  }
+}
+
+/// A function that may not be for threads, as it is of no class that is known.
+class CountingSphere : public vtkSphere
+{
+public:
+  static CountingSphere* New();
+  vtkTypeMacro(CountingSphere, vtkSphere);
+  using vtkSphere::EvaluateFunction;
+  double EvaluateFunction(double place[3]) override
+  {
+    this->Elsewhere += std::this_thread::get_id() == this->Creator ? 0 : 1;
+    return this->vtkSphere::EvaluateFunction(place);
+  }
+
+  const std::thread::id Creator = std::this_thread::get_id();
+  std::atomic<int> Elsewhere{ 0 };
+};
+vtkStandardNewMacro(CountingSphere);
+
+TEST(SliceFilter, OnlyKnownFunctionsAreEvaluatedByThreads)
+{
+  const auto cloud = newCloud(20000);
+  vtkNew<CountingSphere> counting;
+  vtkNew<vtkSphere> sphere;
+  const std::vector<double> expected = sliced(cloud, sphere);
+  vtkSMPTools::LocalScope(vtkSMPTools::Config{ 3, "STDThread", false },
+    [&]()
+    {
+      EXPECT_EQ(sliced(cloud, sphere), expected);
+      EXPECT_EQ(sliced(cloud, counting), expected);
+    });
+  EXPECT_EQ(counting->Elsewhere, 0);
+}
+
+TEST(SliceFilter, NoNameOfAnArrayIsReserved)
+{
+  const auto cloud = newCloud(1000);
+  cloud->GetPointData()->AddArray(arrayOf<vtkDoubleArray>(
+    "vtkIsopointPositions", 1000, [&](vtkIdType i) { return placeOf(cloud, i)[1]; }));
+  vtkNew<vtkSphere> sphere;
+  const auto filter = sliceOf(cloud, sphere);
+  vtkPolyData* const output = updated(filter);
+  vtkDataArray* const found = output->GetPointData()->GetArray("vtkIsopointPositions");
+  ASSERT_TRUE(found);
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+  {
+    EXPECT_NEAR(found->GetComponent(i, 0), placeOf(output, i)[1], 1e-6);
   }
 }
 

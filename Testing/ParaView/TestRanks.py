@@ -300,16 +300,22 @@ class RanksTest(RanksTestCase):
                     self.assertEqual(sorted(sum(found, [])), sorted(expected))
 
     @unittest.skipIf(SIZE == 1, "one rank has one set of options")
-    def test_different_options_for_places_are_an_error(self):
-        errors = []
-        probe = set_all(vtkScatteredProbeFilter(), InputData=cloud_of(uniform(5, 1)), SourceData=cloud_of(
-            uniform(100, RANK)), Controller=RANKS, Interpolation=RANK)
-        watched(probe, errors.append)
-        probe.UpdatePiece(RANK, SIZE, 0)
-        counts = gather((len(errors), probe.GetErrorCode(), probe.GetOutput().GetNumberOfPoints()))
-        if RANK == 0:
-            self.assertEqual(counts, [(1, errno.EINVAL, 0)] + (SIZE - 1) * [(0, errno.EINVAL, 0)])
-            self.assertIn("or probe each rank's samples separately", errors[0])
+    def test_different_options_are_an_error(self):
+        samples = cloud_of(uniform(100, RANK))
+        for filter_, verb in (
+                (set_all(vtkScatteredProbeFilter(), InputData=cloud_of(uniform(5, 1)), SourceData=samples,
+                         Interpolation=RANK), "probe"),
+                *((set_all(vtkScatteredSliceFilter(), InputData=samples, CutFunction=function), "slice") for function in (
+                    set_all(vtkSphere(), Center=(0.5, 0.5, 0.5), Radius=0.3 + 1e-6 * RANK),
+                    set_all(vtkPlane(), Normal=(1, 2 + RANK, 3)), set_all(vtkPlane(), Origin=(0, 0, 0.1 * RANK))))):
+            errors = []
+            filter_.SetController(RANKS)
+            watched(filter_, errors.append)
+            filter_.UpdatePiece(RANK, SIZE, 0)
+            counts = gather((len(errors), filter_.GetErrorCode(), filter_.GetOutput().GetNumberOfPoints()))
+            if RANK == 0:
+                self.assertEqual(counts, [(1, errno.EINVAL, 0)] + (SIZE - 1) * [(0, errno.EINVAL, 0)])
+                self.assertIn(f"or {verb} each rank's samples separately", errors[0])
 
     def test_blocks_and_cells(self):
         """The cells of several images on each rank form one cloud."""

@@ -3,6 +3,7 @@
 
 import doctest
 import unittest
+import warnings
 from unittest import mock
 
 import numpy as np
@@ -119,12 +120,38 @@ class KeptSamples(unittest.TestCase):
         both = samples.slice("x", [0.4] * 3, {"p": POSITIONS}, offsets=[0, 0.1])
         np.testing.assert_allclose(np.unique(both.points[:, 0].round(12)), [0.4, 0.5])
 
-    def test_samples_without_values_take_no_part(self):
-        values = np.where(POSITIONS[:, 0] < 0.5, np.nan, 1.0)
-        with self.assertWarnsRegex(RuntimeWarning, "samples are left out") as caught:
-            sliced = Samples(POSITIONS, values).slice("z")
+    def test_samples_that_lack_a_value_take_part(self):
+        """They have a position. What else the samples are asked for does not depend on former slices."""
+        is_lacking = POSITIONS[:, 0] < 0.5
+        places = POSITIONS[:50] + 1e-3
+        expected = slice_samples(POSITIONS, {"wave": wave(POSITIONS)}, "z")
+        for values in (np.where(is_lacking, np.nan, 1.0), np.ma.masked_array(np.ones(20000), is_lacking)):
+            samples = Samples(POSITIONS, values)
+            with self.assertWarnsRegex(RuntimeWarning, "samples are left out"):
+                before = samples.probe(places, wave(POSITIONS))
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                sliced = samples.slice("z", arrays={"wave": wave(POSITIONS)})
+                own = samples.slice("z").arrays["values"]
+            self.assertEqual(sliced.points.tobytes(), expected.points.tobytes())
+            self.assertEqual(sliced.arrays["wave"].tobytes(), expected.arrays["wave"].tobytes())
+            np.testing.assert_allclose(own[expected.points[:, 0] > 0.5], 1)
+            self.assertTrue(np.isnan(own[expected.points[:, 0] < 0.2]).all())
+            with self.assertWarnsRegex(RuntimeWarning, "samples are left out"):
+                self.assertEqual(samples.probe(places, wave(POSITIONS)).tobytes(), before.tobytes())
+        far = np.vstack([POSITIONS, [[np.nan, 0, 0]]])
+        with self.assertWarnsRegex(RuntimeWarning, "1 of 20001 samples are left out: their position") as caught:
+            Samples(far, np.zeros(20001)).slice("z")
         self.assertEqual(caught.filename, __file__)
-        self.assertGreater(sliced.points[:, 0].min(), 0.5)
+
+    def test_nearest_samples_keep_numbers_of_materials(self):
+        large = 2**53 + 1  # not held by float64
+        material = np.where(POSITIONS[:, 0] < 0.5, 3, large)
+        for function in (None, ball):
+            found = slice_samples(POSITIONS, {"material": material, "place": POSITIONS}, function=function,
+                                  interpolation="nearest").arrays
+            self.assertEqual(found["material"].dtype, material.dtype)
+            self.assertEqual(found["material"].tolist(), np.where(found["place"][:, 0] < 0.5, 3, large).tolist())
 
 
 class Calls(unittest.TestCase):
@@ -146,7 +173,7 @@ class Calls(unittest.TestCase):
                 (dict(function=ball, normal="x"), TypeError, "normal"),
                 (dict(function=lambda places: places), ValueError, "one number for each"),
                 (dict(function=lambda places: np.full(len(places), np.inf)), ValueError, "not finite at 20000"),
-                (dict(interpolation="cubic"), ValueError, '"fits" or "linear"'), (dict(angle=3), TypeError, "angle"),
+                (dict(interpolation="cubic"), ValueError, '"linear" or "nearest"'), (dict(angle=3), TypeError, "angle"),
                 (dict(offsets=None), TypeError, "isovalues"), (dict(threads=0), ValueError, "threads")):
             with self.subTest(text), self.assertRaisesRegex(error, text):
                 slice_samples(POSITIONS, POSITIONS, **options)
