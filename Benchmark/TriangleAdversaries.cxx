@@ -315,12 +315,10 @@ double measure(const Adversary& adversary, const Options& options)
   double ours = HUGE_VAL;
   for (int run = 0; run < 2; ++run) // the faster one counts; the machine's load may change
   {
-    full = std::min(
-      full, seconds(options,
-              [&]() { expected = countInFull(cloud, adversary, options.cgalThreads); }));
-    ours = std::min(
-      ours, seconds(options,
-              [&]() { found = countFound(cloud, adversary, options.threads, counts); }));
+    full = std::min(full,
+      seconds(options, [&]() { expected = countInFull(cloud, adversary, options.cgalThreads); }));
+    ours = std::min(ours,
+      seconds(options, [&]() { found = countFound(cloud, adversary, options.threads, counts); }));
   }
   std::printf("| %s | %zu | %.2f | %.2f | %zu + %zu in %zu rounds%s | %zu%s |\n",
     adversary.name.c_str(), cloud.size(), full, ours / full, counts.band, counts.size - counts.band,

@@ -85,9 +85,10 @@ public:
   /**
    * Whether the surface is that of the body of the samples at or above the isovalue: closed by caps
    * where the samples end, with outward normals, and 2-manifold. The body is the union of the
-   * tetrahedra that are not in gaps, as docs/triangles.md defines them for bodies; with DropGapsOff()
-   * it is the convex hull. Vertices of caps at samples have the arrays of the sample. The cell array
-   * IsCap is 1 in caps. Requires RegularizeOff() and the projection NO_PROJECTION. Default: off.
+   * tetrahedra that are not in gaps, as docs/triangles.md defines them for bodies; with
+   * DropGapsOff() it is the convex hull. Vertices of caps at samples have the arrays of the sample.
+   * The cell array IsCap is 1 in caps. Requires RegularizeOff() and the projection NO_PROJECTION.
+   * Default: off.
    */
   virtual void SetCapping(vtkTypeBool capping);
   virtual vtkTypeBool GetCapping();

@@ -15,6 +15,9 @@
 namespace isopoint
 {
 
+/// Smaller pieces of tetrahedra next to a gap are dropped with it.
+inline constexpr std::size_t smallestPiece = 8;
+
 /// Finds the parts of a surface, edges or tetrahedra, that lie in gaps of the cloud: parts that the
 /// weak gap criterion rejects and that are connected with a seed through other such parts. If ranks
 /// share the tree, all functions are collective.

@@ -53,8 +53,7 @@ private:
   bool mayDrop(const TSample& own, const TSample& other, double spacing) const
   {
     constexpr double slack = 1.001; // for rounding
-    return 2.0 * this->Factor * spacing <
-           slack * lengthOf(positionOf(other) - positionOf(own));
+    return 2.0 * this->Factor * spacing < slack * lengthOf(positionOf(other) - positionOf(own));
   }
 
   /// Whether one of the balls is empty. The same from either end.
@@ -81,13 +80,15 @@ private:
 /// The criterion of edges that start a gap in a body or a slice.
 inline VoidCriterion<GapCriterion> strongVoids()
 {
-  return { GapCriterion::strong(), 1.0 };
+  constexpr double strongVoidFactor = 1.0;
+  return { GapCriterion::strong(), strongVoidFactor };
 }
 
 /// The criterion of edges connected with such a gap.
 inline VoidCriterion<RimCriterion> weakVoids()
 {
-  return { RimCriterion(), 0.7 };
+  constexpr double weakVoidFactor = 0.7;
+  return { RimCriterion(), weakVoidFactor };
 }
 
 } // namespace isopoint

@@ -356,7 +356,7 @@ private:
       this->split(unsplit);
       ends.clear();
       unsplit.clear();
-      for (unsigned corner = 0; corner < cornerCount && this->Tree.ownCount() > 0; ++corner)
+      for (unsigned corner = 0; corner<cornerCount&& this->Tree.ownCount()> 0; ++corner)
       {
         ends.push_back(this->endInCorner(corner));
         if (!this->Tree.nodes[ends.back()].isLeaf)
@@ -499,8 +499,8 @@ private:
       this->Exec, openCount, 8 * grain, grain,
       [&](std::size_t begin, std::size_t end)
       {
-        SphereSearch<TSample> search(
-          this->Tree, this->triangulation(), this->Current->marks, this->Current->boxes, this->IsBody);
+        SphereSearch<TSample> search(this->Tree, this->triangulation(), this->Current->marks,
+          this->Current->boxes, this->IsBody);
         std::vector<std::size_t> leaves;
         std::size_t visits = 0;
         for (std::size_t i = begin; i < end && !this->isSpent(); ++i)

@@ -448,9 +448,8 @@ FacetCorners PartialTriangulation::cornersOf(const ExploredFacet& facet) const
   FacetCorners corners{};
   for (std::size_t i = 0; i < 3; ++i)
   {
-    const VertexInfo& info = this->Inside->Explored[facet.tetrahedron]
-                               ->vertex(outwardFacets[facet.corner][i])
-                               ->info();
+    const VertexInfo& info =
+      this->Inside->Explored[facet.tetrahedron]->vertex(outwardFacets[facet.corner][i])->info();
     corners.leaves[i] = info.leaf();
     corners.areBelow[i] = info.isBelow();
   }
@@ -474,7 +473,8 @@ ExploredFacet PartialTriangulation::wedgeEnd(
     return !this->Inside->isInfinite(cell) && (number == unexplored || !areInGap[number]);
   };
   Cell cell = this->Inside->Explored[facet.tetrahedron];
-  // The wedge lies between the facet just passed, opposite to `passed`, and that opposite to `next`.
+  // The wedge lies between the facet just passed, opposite to `passed`, and that opposite to
+  // `next`.
   Vertex passed = cell->vertex(facet.corner);
   Vertex next = cell->vertex(outwardFacets[facet.corner][(side + 2) % 3]);
   while (isInBody(cell->neighbor(cell->index(next))))

@@ -233,7 +233,8 @@ private:
   bool mayReachSamples(std::size_t nodeIndex, const TShape& shape)
   {
     const Node<TSample>& node = this->Tree.nodes[nodeIndex];
-    if (node.count() <= fewSamples || node.count() > this->ManySamples || !this->Tree.hasOnlyOwn(node))
+    if (node.count() <= fewSamples || node.count() > this->ManySamples ||
+        !this->Tree.hasOnlyOwn(node))
     {
       return true;
     }

@@ -51,8 +51,8 @@ public:
     std::vector<std::size_t> placeOfVertex(placeOf.size());
     forEachIndex(this->Exec, placeOf.size(),
       [&](std::size_t pair) { placeOfVertex[pair] = placeOf[this->Vertices.vertexOf(pair)]; });
-    const ClosedTriangles closed = closedTriangles(
-      this->Exec, triangles, this->twinsOf(triangles), placeOfVertex, order.size());
+    const ClosedTriangles closed =
+      closedTriangles(this->Exec, triangles, this->twinsOf(triangles), placeOfVertex, order.size());
     BodyTriangles<TSample> result;
     const std::vector<std::size_t> pairs = chosenOf(this->Exec, order, closed.places);
     result.mesh.edges = chosenOf(this->Exec, this->Vertices.edges(), pairs);
@@ -118,8 +118,7 @@ private:
   {
     const SurfaceMesh mesh(this->Exec, triangles, this->Vertices.pairCount());
     std::vector<HalfEdge> twins(3 * triangles.size());
-    forEachIndex(
-      this->Exec, twins.size(), [&](HalfEdge side) { twins[side] = mesh.twinOf(side); });
+    forEachIndex(this->Exec, twins.size(), [&](HalfEdge side) { twins[side] = mesh.twinOf(side); });
     forEachIndex(this->Exec, this->Body.caps.size(),
       [&](std::size_t i)
       {
@@ -129,8 +128,7 @@ private:
           const std::size_t next = (side + 1) % 3;
           if (!cap.areBelow[side] || !cap.areBelow[next])
           {
-            twins[this->SidesOfCaps[i][side]] =
-              this->sideOn(cap.partners[side], cap.corners[next]);
+            twins[this->SidesOfCaps[i][side]] = this->sideOn(cap.partners[side], cap.corners[next]);
           }
         }
       });

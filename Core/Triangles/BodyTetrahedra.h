@@ -4,6 +4,7 @@
 #include "Core/Base/Execution.h"
 #include "Core/Base/Lists.h"
 #include "Core/Extraction/Isosurface.h"
+#include "Core/Neighbors/GapSpread.h"
 #include "Core/Neighbors/VoidCriterion.h"
 #include "Core/Tetrahedra/CrossingTetrahedra.h"
 #include "Core/Tree/SampleBounds.h"
@@ -82,8 +83,6 @@ public:
   }
 
 private:
-  static constexpr std::size_t smallestPiece = 8; // of tetrahedra next to a gap
-
   const PartialTriangulation& cells() const { return this->Finder.triangulation(); }
 
   /// Explores the crossing tetrahedra and those behind facets of the hull.
@@ -205,13 +204,12 @@ private:
       [&](int, std::size_t i)
       {
         const auto& [places, leaves] = edges[i];
-        marks[i] =
-          this->isOwn(edges[i]) &&
-              criterion.drops(this->Tree, this->Bounds, this->sampleAt(leaves[0]),
-                this->sampleAt(leaves[1]),
-                std::max(this->SpacingAt.at(places[0]), this->SpacingAt.at(places[1])))
-            ? 1
-            : 0;
+        marks[i] = this->isOwn(edges[i]) &&
+                       criterion.drops(this->Tree, this->Bounds, this->sampleAt(leaves[0]),
+                         this->sampleAt(leaves[1]),
+                         std::max(this->SpacingAt.at(places[0]), this->SpacingAt.at(places[1])))
+                     ? 1
+                     : 0;
       });
     std::vector<std::size_t> found = markedOf(this->Exec, marks);
     this->Ranks.unite(found);
@@ -403,8 +401,8 @@ private:
 
   void collect(BodyTetrahedra<Id>& body) const
   {
-    body.droppedCount = static_cast<std::size_t>(
-      std::count(this->IsInGap.begin(), this->IsInGap.end(), char{ 1 }));
+    body.droppedCount =
+      static_cast<std::size_t>(std::count(this->IsInGap.begin(), this->IsInGap.end(), char{ 1 }));
     std::vector<ExploredFacet> facets;
     forEachInOrder(this->Exec, this->IsInGap.size(),
       [&](std::size_t tetrahedron)
@@ -439,8 +437,9 @@ private:
   /// @param facets ordered
   void addCaps(const std::vector<ExploredFacet>& facets, std::vector<CapFacet<Id>>& caps) const
   {
-    const auto isBefore = [](const ExploredFacet& a, const ExploredFacet& b)
-    { return a.tetrahedron != b.tetrahedron ? a.tetrahedron < b.tetrahedron : a.corner < b.corner; };
+    const auto isBefore = [](const ExploredFacet& a, const ExploredFacet& b) {
+      return a.tetrahedron != b.tetrahedron ? a.tetrahedron < b.tetrahedron : a.corner < b.corner;
+    };
     caps.resize(facets.size());
     forEachIndex(this->Exec, facets.size(),
       [&](std::size_t i)

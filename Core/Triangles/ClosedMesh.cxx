@@ -91,8 +91,8 @@ private:
   {
     const std::array<std::size_t, 3> places{ placeOf[all[triangle][0]], placeOf[all[triangle][1]],
       placeOf[all[triangle][2]] };
-    return 3 * triangle +
-           static_cast<std::size_t>(std::min_element(places.begin(), places.end()) - places.begin());
+    return 3 * triangle + static_cast<std::size_t>(
+                            std::min_element(places.begin(), places.end()) - places.begin());
   }
 
   void orderSources(
@@ -141,8 +141,8 @@ private:
           firsts.emplace_back(this->placeAt(first), firsts.size());
         }
       });
-    firsts = sortedUnique(
-      this->Exec, firsts, this->PlaceCount, [](const auto& fan) { return fan.first; });
+    firsts =
+      sortedUnique(this->Exec, firsts, this->PlaceCount, [](const auto& fan) { return fan.first; });
     std::vector<std::size_t> numbers(firsts.size());
     this->Places.resize(firsts.size());
     forEachIndex(this->Exec, firsts.size(),
@@ -229,8 +229,8 @@ private:
         // The fan at the lowest place is the lowest one.
         all[i] = { { this->Fans[3 * i], this->Fans[3 * i + 1], this->Fans[3 * i + 2] }, i };
       });
-    all = sortedUnique(this->Exec, all, this->Places.size(),
-      [](const Numbered& each) { return each.corners[0]; });
+    all = sortedUnique(
+      this->Exec, all, this->Places.size(), [](const Numbered& each) { return each.corners[0]; });
     ClosedTriangles result;
     result.places = this->Places;
     result.triangles.resize(all.size());
@@ -249,7 +249,7 @@ private:
   std::vector<std::size_t> Sources;       // of the triangles
   std::vector<SurfaceTriangle> Triangles; // of places
   std::vector<HalfEdge> Twins;
-  std::vector<std::size_t> Fans; // by side, that of its start
+  std::vector<std::size_t> Fans;   // by side, that of its start
   std::vector<std::size_t> Places; // by fan
 };
 

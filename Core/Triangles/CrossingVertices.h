@@ -49,8 +49,7 @@ public:
   /// @param tetrahedra, caps their corners are leaves of the tree
   CrossingVertices(const Execution& execution, const SampleTree<TSample>& tree,
     LeafValues<TSample>& values, double isovalue, EdgeOrder order,
-    const std::vector<CrossingTetrahedron<Id>>& tetrahedra,
-    const std::vector<CapFacet<Id>>& caps)
+    const std::vector<CrossingTetrahedron<Id>>& tetrahedra, const std::vector<CapFacet<Id>>& caps)
     : Exec(execution)
     , Tree(tree)
     , Values(values)
@@ -92,7 +91,6 @@ public:
         return { { pairOf(d, a), pairOf(d, c), pairOf(d, b) }, 3 };
     }
   }
-
 
   /// The polygon of a cap: its part that is not below the isovalue. Sets, per side of the facet
   /// with an end that is not below, the place in the polygon at which its part begins.

@@ -98,9 +98,9 @@ public:
     {
       return {};
     }
-    return this->withFinder(execution,
-      [](const Execution& /*part*/, CrossingTetrahedraFinder<TSample, TRanks>& finder,
-        const std::vector<BinaryIndex>& nodes) { return finder.find(nodes); });
+    return this->withFinder(
+      execution, [](const Execution& /*part*/, CrossingTetrahedraFinder<TSample, TRanks>& finder,
+                   const std::vector<BinaryIndex>& nodes) { return finder.find(nodes); });
   }
 
   /// The tetrahedra and facets that the surface of the body consists of.

@@ -163,7 +163,6 @@ public:
   }
 
 private:
-  static constexpr std::size_t smallestPiece = 8; // of tetrahedra next to a gap
   /// The tetrahedra from which gaps spread. If slivers are kept, these span a void; otherwise the
   /// strong criterion rejects them, or they are at the hull.
   std::vector<std::size_t> seeds()

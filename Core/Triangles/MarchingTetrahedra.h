@@ -65,8 +65,7 @@ private:
     std::size_t count = 0;
     for (std::size_t i = 0; i < polygon.count; ++i)
     {
-      const std::size_t corner =
-        this->Vertices.vertexOf(this->Vertices.numberOf(polygon.pairs[i]));
+      const std::size_t corner = this->Vertices.vertexOf(this->Vertices.numberOf(polygon.pairs[i]));
       if (count == 0 || (corner != corners[count - 1] && corner != corners[0]))
       {
         corners[count++] = corner;

@@ -12,9 +12,9 @@ namespace isopoint
 
 struct SurfacePart
 {
-  std::vector<std::size_t> vertices;      // their numbers in the whole surface, ascending
-  std::vector<bool> areGhosts;            // whether each is counted on another rank
-  std::vector<SurfaceTriangle> triangles; // indices into `vertices`; ghosts last
+  std::vector<std::size_t> vertices;        // their numbers in the whole surface, ascending
+  std::vector<bool> areGhosts;              // whether each is counted on another rank
+  std::vector<SurfaceTriangle> triangles;   // indices into `vertices`; ghosts last
   std::vector<std::size_t> triangleNumbers; // in the whole surface
   std::size_t ghostCount = 0;
 };

@@ -182,8 +182,7 @@ void vtkAddContouredArray(
     for (std::size_t i = 0; i < surface.size(); ++i)
     {
       const IsopointEdge& edge = surface.edgeOf(i);
-      result->SetComponent(
-        tuple++, 0, edge.isSample() ? valueAt(edge.first) : surface.isovalue);
+      result->SetComponent(tuple++, 0, edge.isSample() ? valueAt(edge.first) : surface.isovalue);
     }
   }
   vtkAddAttribute(vtkDataSetAttributes::SCALARS, result, output);
