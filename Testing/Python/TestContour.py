@@ -70,6 +70,30 @@ class ContourTest(unittest.TestCase):
                 self.same(result, data, (0.2, 0.3), vtkScatteredIsosurfaceFilter, Regularize=regularize)
                 self.assertGreater(len(result.triangles), 1000)
 
+    def test_bodies(self):
+        positions, values = samples(7000, np.float64)
+        number = np.arange(len(values), dtype=np.int32)
+        exact = dict(triangles=True, regularize=False, projection=None)
+        body = contour(positions, -values, -0.55, capping=True, arrays={"number": number}, **exact)
+        self.same(contour(positions, -values, -0.55, capping=True, **exact), cloud_of(positions, -values), [-0.55],
+                  vtkScatteredIsosurfaceFilter, Capping=True, Regularize=False, Projection=0)
+        sides = np.concatenate([np.roll(body.triangles, -corner, 1)[:, :2] for corner in range(3)])
+        self.assertEqual(len(np.unique(sides, axis=0)), len(sides))
+        self.assertEqual({*map(tuple, sides)}, {*map(tuple, sides[:, ::-1])})
+        caps = body.cell_arrays["IsCap"]
+        np.testing.assert_array_equal(body.polydata.GetCellData().GetArray("IsCap"), caps)
+        self.assertTrue(0 < caps.sum() < len(caps))
+        of_caps, of_isosurface = (np.unique(body.triangles[caps == kind]) for kind in (1, 0))
+        at_samples = np.setdiff1d(of_caps, of_isosurface)
+        found = body.arrays["number"][at_samples]
+        np.testing.assert_array_equal(body.points[at_samples], positions[found])
+        np.testing.assert_array_equal(body.arrays["values"][at_samples], -values[found])
+        self.assertEqual(set(body.arrays["values"][of_isosurface]), {-0.55})
+        for wrong in (dict(regularize=True), dict(projection="CUBIC_FIT")):
+            with self.assertRaisesRegex(ValueError, "capping requires regularize off and projection 0"):
+                contour(positions, -values, -0.55, capping=True, **{**exact, **wrong})
+        self.assertEqual(len(contour(positions, -values, -0.55, **exact).cell_arrays), 0)
+
     def test_arrays_of_other_types(self):
         positions, values = samples()
         for dtype in (np.int16, np.uint16, np.int32, np.int64, np.uint64):

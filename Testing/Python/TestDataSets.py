@@ -128,7 +128,9 @@ class DataSetsTest(unittest.TestCase):
         for dtype in (np.float32, np.float64):
             data, isovalue = prepared(cloud(dtype=dtype), False, "points")
             self.same(data, "distance", [isovalue, 0.2], triangles=True)
-            self.same(data, "distance", [isovalue, 0.2], triangles=True, regularize=False)
+            exact = dict(triangles=True, regularize=False)
+            self.same(data, "distance", [isovalue, 0.2], **exact)
+            self.same(data, "distance", [isovalue, 0.2], capping=True, projection=None, **exact)
             self.same(data, "count", [700.5, 20.5], compute_gradients=True)
             data.GetPointData().SetActiveScalars("distance")
             self.same(data, None, [isovalue], projection="no_projection")
