@@ -64,14 +64,15 @@ inline Description described(const Extracted& extracted)
   return all;
 }
 
-/// Each triangle by all that is known of its vertices, in order.
+/// Each triangle by all that is known of it and its vertices, in order.
 inline Description describedTriangles(const Extracted& extracted)
 {
   const Description vertices = described(extracted);
   Description all;
   for (const auto& [a, b, c] : extracted.triangles)
   {
-    all.push_back(vertices[a] + vertices[b] + vertices[c]);
+    const bool isCap = !extracted.areCaps.empty() && extracted.areCaps[all.size()] != 0;
+    all.push_back(vertices[a] + vertices[b] + vertices[c] + (isCap ? "cap" : ""));
   }
   return all;
 }

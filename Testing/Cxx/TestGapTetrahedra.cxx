@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The crossing tetrahedra in gaps: against a search of CGAL's tetrahedralization, and against
 // clouds with and without gaps.
+#include "GapDefinition.h"
 #include "RandomClouds.h"
-#include "Topology.h"
-#include "TriangleTesting.h"
 
 namespace
 {
@@ -25,145 +24,18 @@ double shareInGaps(const Cloud& cloud, double isovalue)
   return static_cast<double>(foundInGaps(cloud, isovalue).size()) / static_cast<double>(all.size());
 }
 
-/// A crossing tetrahedron of the whole tetrahedralization.
-struct Tetrahedron
-{
-  Corners corners;
-  std::vector<std::size_t> neighbors; // across crossing facets
-  bool isWeak = false;                // has an edge over the weak criterion, or leaving the body
-  bool isSeed = false;                // has one over the strong criterion, or a facet at the hull
-};
-
-/// Whether the edge {x, y} leaves the body at x.
-bool leavesBody(const std::vector<bruteforce::Cell>& cells, std::size_t x, std::size_t y)
-{
-  return bruteforce::isDense(cells, y, x, 2.0, 2) &&
-         bruteforce::isDense(cells, x, y, 4.0, 3, 0.0) && !bruteforce::isDense(cells, x, y, 0.5, 2);
-}
-
-/// Whether no sample is near the middle of the edge {x, y}.
-bool isBare(
-  const std::vector<bruteforce::Cell>& cells, std::size_t x, std::size_t y, double factorOfSpacing)
-{
-  const Vector middle = 0.5 * (cells[x].position + cells[y].position);
-  double distance = std::numeric_limits<double>::infinity();
-  for (const bruteforce::Cell& cell : cells)
-  {
-    distance = std::min(distance, isopoint::lengthOf(cell.position - middle));
-  }
-  const double factor =
-    factorOfSpacing * (isopoint::lengthOf(cells[y].position - cells[x].position) / distance);
-  return bruteforce::isDense(cells, x, y, factor, 6, -2.0) ||
-         bruteforce::isDense(cells, y, x, factor, 6, -2.0);
-}
-
-std::vector<Tetrahedron> allTetrahedra(const Cloud& cloud, double isovalue, bool keepsHullSlivers)
-{
-  const triangles::FullTetrahedralization full(cloud);
-  const std::vector<bruteforce::Cell> cells = bruteforce::Tree(cloud).cells;
-  std::map<std::uint64_t, std::size_t> cellOf; // by id
-  for (std::size_t i = 0; i < cells.size(); ++i)
-  {
-    cellOf[cells[i].id] = i;
-  }
-  std::map<triangles::Delaunay::Cell_handle, std::size_t> numberOf;
-  if (full.cells.dimension() == 3)
-  {
-    for (const auto cell : full.cells.finite_cell_handles())
-    {
-      if (full.isCrossing(cell, isovalue))
-      {
-        numberOf.emplace(cell, numberOf.size());
-      }
-    }
-  }
-  std::vector<Tetrahedron> result(numberOf.size());
-  for (const auto& [cell, number] : numberOf)
-  {
-    Tetrahedron& tetrahedron = result[number];
-    tetrahedron.corners = full.cornersOf(cell);
-    for (int i = 0; i < 4; ++i)
-    {
-      const std::size_t x = cellOf.at(full.idOf(cell->vertex(i)));
-      for (int j = 0; j < i; ++j)
-      {
-        const std::size_t y = cellOf.at(full.idOf(cell->vertex(j)));
-        const auto spansVoid = [&](double factor)
-        { return !keepsHullSlivers || isBare(cells, x, y, factor); };
-        const bool isWeak = bruteforce::isDroppedByGap(cells, x, y, 2.0, 2) ||
-                            leavesBody(cells, x, y) || leavesBody(cells, y, x);
-        tetrahedron.isWeak |= isWeak && spansVoid(1.0);
-        tetrahedron.isSeed |= bruteforce::isDroppedByGap(cells, x, y, 4.0, 3) && spansVoid(1.5);
-      }
-      if (full.isCrossing(cell, isovalue, i))
-      {
-        const bool isAtHull = full.cells.is_infinite(cell->neighbor(i));
-        tetrahedron.isSeed |= isAtHull && !keepsHullSlivers;
-        if (!isAtHull)
-        {
-          tetrahedron.neighbors.push_back(numberOf.at(cell->neighbor(i)));
-        }
-      }
-    }
-  }
-  return result;
-}
-
-/// The piece of each tetrahedron, by one of its tetrahedra. Connected ones of the kind are a piece.
-template <class Kind>
-std::vector<std::size_t> piecesOf(const std::vector<Tetrahedron>& all, const Kind& isOfKind)
-{
-  std::vector<std::size_t> roots(all.size());
-  std::iota(roots.begin(), roots.end(), std::size_t{ 0 });
-  for (std::size_t i = 0; i < all.size(); ++i)
-  {
-    for (const std::size_t neighbor : all[i].neighbors)
-    {
-      if (isOfKind(i) && isOfKind(neighbor))
-      {
-        roots[topology::rootOf(roots, i)] = topology::rootOf(roots, neighbor);
-      }
-    }
-  }
-  std::vector<std::size_t> pieces;
-  for (std::size_t i = 0; i < all.size(); ++i)
-  {
-    pieces.push_back(topology::rootOf(roots, i));
-  }
-  return pieces;
-}
-
-/// The rule of docs/triangles.md, piece by piece.
 std::vector<Corners> expectedInGaps(const Cloud& cloud, double isovalue, bool keepsHullSlivers)
 {
-  const std::vector<Tetrahedron> all = allTetrahedra(cloud, isovalue, keepsHullSlivers);
-  const auto weak = piecesOf(all, [&](std::size_t i) { return all[i].isWeak; });
-  std::set<std::size_t> gaps; // pieces
-  for (std::size_t i = 0; i < all.size(); ++i)
-  {
-    if (all[i].isWeak && all[i].isSeed)
-    {
-      gaps.insert(weak[i]);
-    }
-  }
-  const auto isInGap = [&](std::size_t i) { return gaps.count(weak[i]) > 0; };
-  const auto kept = piecesOf(all, [&](std::size_t i) { return !isInGap(i); });
-  std::map<std::size_t, std::size_t> sizes;
-  std::map<std::size_t, bool> bordersOnGap;
-  for (std::size_t i = 0; i < all.size(); ++i)
-  {
-    ++sizes[kept[i]];
-    for (const std::size_t neighbor : all[i].neighbors)
-    {
-      bordersOnGap[kept[i]] |= isInGap(neighbor);
-    }
-  }
+  const triangles::FullTetrahedralization full(cloud);
+  const std::vector<gaps::Tetrahedron> all = gaps::tetrahedraOf(
+    cloud, full, isovalue, keepsHullSlivers ? gaps::Kind::Slice : gaps::Kind::Surface);
+  const std::vector<bool> areInGaps = gaps::areInGaps(all);
   std::vector<Corners> result;
   for (std::size_t i = 0; i < all.size(); ++i)
   {
-    if (isInGap(i) || (bordersOnGap[kept[i]] && sizes[kept[i]] < 8))
+    if (areInGaps[i])
     {
-      result.push_back(all[i].corners);
+      result.push_back(full.cornersOf(all[i].cell));
     }
   }
   std::sort(result.begin(), result.end());

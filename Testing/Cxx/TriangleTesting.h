@@ -59,20 +59,21 @@ public:
     return this->Ids[vertex->info()];
   }
 
+  bool isBelow(const Delaunay::Vertex_handle vertex, double isovalue) const
+  {
+    return this->Values[vertex->info()] < isovalue;
+  }
+
   /// Whether the finite corners of a cell but one lie on both sides.
   bool isCrossing(const Delaunay::Cell_handle cell, double isovalue, int without = -1) const
   {
-    int below = 0;
-    int finite = 0;
-    for (int i = 0; i < 4; ++i)
-    {
-      if (i != without && !this->cells.is_infinite(cell->vertex(i)))
-      {
-        ++finite;
-        below += this->Values[cell->vertex(i)->info()] < isovalue ? 1 : 0;
-      }
-    }
-    return below > 0 && below < finite;
+    return this->hasSide(true, cell, isovalue, without) && this->hasAbove(cell, isovalue, without);
+  }
+
+  /// Whether a finite corner of a cell, but one, is not below.
+  bool hasAbove(const Delaunay::Cell_handle cell, double isovalue, int without = -1) const
+  {
+    return this->hasSide(false, cell, isovalue, without);
   }
 
   Corners cornersOf(const Delaunay::Cell_handle cell) const
@@ -107,6 +108,17 @@ public:
   Delaunay cells; // vertices know their number
 
 private:
+  bool hasSide(bool below, const Delaunay::Cell_handle cell, double isovalue, int without) const
+  {
+    bool isAny = false;
+    for (int i = 0; i < 4; ++i)
+    {
+      isAny |= i != without && !this->cells.is_infinite(cell->vertex(i)) &&
+               this->isBelow(cell->vertex(i), isovalue) == below;
+    }
+    return isAny;
+  }
+
   std::vector<std::uint64_t> Ids; // by number: the lowest of coincident samples
   std::vector<double> Values;     // the mean of these
 };
