@@ -75,6 +75,14 @@ void checkOptions(const Options& options, OptionNaming naming)
     throw UsageError(naming(option::capping.name) + " requires " + naming(option::regularize.name) +
                      " off and " + naming(option::projection.name) + " 0.");
   }
+  if (options.triangles && options.capping &&
+      (options.computeGradients || options.normalMethod == static_cast<int>(NormalMethod::Field)))
+  {
+    throw UsageError(naming(option::capping.name) + " has no gradients: set " +
+                     naming(option::computeGradients.name) + " off and " +
+                     naming(option::normalMethod.name) +
+                     " to planes, and compute gradients at the samples.");
+  }
 }
 
 std::vector<double> sortedIsovalues(const std::vector<double>& isovalues)
@@ -113,7 +121,7 @@ ExtractionRequest requestOf(const Options& options)
   ExtractionRequest request;
   request.isosurface.angle = options.angle;
   request.isosurface.dropsGaps = options.dropGaps;
-  request.isosurface.fit = fitRequestOf(options);
+  request.isosurface.fit = options.capping ? std::nullopt : fitRequestOf(options);
   request.isosurface.duplicatesCreaseVertices = options.computeNormals;
   request.isosurface.regularizes = options.regularize;
   request.isosurface.keepsHullSlivers = options.keepHullSlivers;

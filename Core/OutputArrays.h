@@ -92,6 +92,22 @@ T toArrayType(double value)
   }
 }
 
+/// Calls copy(isopoint, sample) for the vertices of caps at single samples: their attributes are
+/// those of the sample, to the last digit.
+template <class Copy>
+void forEachAtSample(const Execution& execution, const Isosurface& surface, const Copy& copy)
+{
+  forEachIndex(execution, surface.size(),
+    [&](std::size_t i)
+    {
+      const IsopointEdge& edge = surface.edgeOf(i);
+      if (edge.isSample() && !surface.coincidentAt(edge.first))
+      {
+        copy(i, edge.first);
+      }
+    });
+}
+
 /// Interpolates an attribute of the samples at all isopoints of a surface.
 /// @param componentOf(sample, component) as a double
 /// @param write(isopoint, component, value) called from any thread

@@ -24,7 +24,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -114,12 +113,19 @@ public:
   std::uint64_t number() const
   {
     std::uint64_t number = 0;
-    std::memcpy(&number, this->Number.data(), this->Number.size());
+    for (std::size_t i = this->Number.size(); i > 0; --i)
+    {
+      number = number << 8 | this->Number[i - 1];
+    }
     return number;
   }
   void setNumber(std::uint64_t number)
   {
-    std::memcpy(this->Number.data(), &number, this->Number.size());
+    for (unsigned char& byte : this->Number)
+    {
+      byte = static_cast<unsigned char>(number);
+      number >>= 8;
+    }
   }
 
   bool isCertified = false;

@@ -147,14 +147,9 @@ private:
     BodyTriangles<TSample> found =
       BodySurface<TSample>(part, this->Tree, this->Values, this->Request.isovalue, body).find();
     ExtractionContext<TSample> context(this->Tree, this->Neighborhoods, this->Request.isovalue);
-    std::vector<LocalFit> fits;
-    if (this->Request.fit && this->Request.fit->highest)
-    {
-      fits = this->fitTo(part, context, found.mesh, {});
-    }
     TriangleSurface surface;
     surface.vertices = placeIsopoints<TSample>(partOf(this->Exec, meshEnd, 1.0), context,
-      { found.mesh.edges, {}, found.mesh.positions }, std::move(fits), false);
+      { found.mesh.edges, {}, found.mesh.positions }, {}, false);
     surface.triangles = std::move(found.mesh.triangles);
     surface.areCaps = std::move(found.areCaps);
     surface.droppedTetrahedra = body.droppedCount;

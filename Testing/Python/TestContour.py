@@ -89,8 +89,17 @@ class ContourTest(unittest.TestCase):
         np.testing.assert_array_equal(body.points[at_samples], positions[found])
         np.testing.assert_array_equal(body.arrays["values"][at_samples], -values[found])
         self.assertEqual(set(body.arrays["values"][of_isosurface]), {-0.55})
-        for wrong in (dict(regularize=True), dict(projection="CUBIC_FIT")):
-            with self.assertRaisesRegex(ValueError, "capping requires regularize off and projection 0"):
+        large = 2**53 + 1 + 2 * number.astype(np.int64)
+        data = cloud_of(positions, -values)
+        data.GetPointData().AddArray(named("large", large))
+        for result in (contour(positions, -values, -0.55, capping=True, arrays={"large": large}, **exact),
+                       contour(data, None, -0.55, capping=True, **exact)):
+            np.testing.assert_array_equal(result.arrays["large"][at_samples], large[found])
+        needs = "capping requires regularize off and projection 0"
+        for wrong, text in ((dict(regularize=True), needs), (dict(projection="CUBIC_FIT"), needs),
+                            (dict(compute_gradients=True), "capping has no gradients"),
+                            (dict(normal_method="normals_from_field"), "capping has no gradients")):
+            with self.assertRaisesRegex(ValueError, text):
                 contour(positions, -values, -0.55, capping=True, **{**exact, **wrong})
         self.assertEqual(len(contour(positions, -values, -0.55, **exact).cell_arrays), 0)
 
