@@ -348,7 +348,7 @@ private:
   /// This rank's leaves in the corners of the tree: the hull grows from them.
   std::vector<std::size_t> cornerLeaves()
   {
-    constexpr unsigned cornerCount = 8;
+    const unsigned count = this->Tree.ownCount() > 0 ? 8 : 0;
     std::vector<std::size_t> ends;
     std::vector<std::size_t> unsplit;
     do
@@ -356,7 +356,7 @@ private:
       this->split(unsplit);
       ends.clear();
       unsplit.clear();
-      for (unsigned corner = 0; corner<cornerCount&& this->Tree.ownCount()> 0; ++corner)
+      for (unsigned corner = 0; corner < count; ++corner)
       {
         ends.push_back(this->endInCorner(corner));
         if (!this->Tree.nodes[ends.back()].isLeaf)

@@ -9,6 +9,8 @@
 #endif
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cstddef>
 #include <exception>
 #include <functional>
@@ -102,26 +104,43 @@ public:
   }
 
   /// Numbers the explored tetrahedra from one on anew, in the order of their corners' places.
-  void orderExplored(
-    std::size_t first, const std::function<std::uint64_t(std::uint64_t leaf)>& placeOf)
+  void orderExplored(const Execution& execution, std::size_t first,
+    const std::function<std::uint64_t(std::uint64_t leaf)>& placeOf)
   {
-    std::vector<std::pair<std::array<std::uint64_t, 4>, Cell>> cells;
-    for (std::size_t number = first; number < this->Explored.size(); ++number)
+    struct Placed
     {
-      std::array<std::uint64_t, 4> places{};
-      for (std::size_t i = 0; i < 4; ++i)
+      std::array<std::uint64_t, 4> places; // ascending
+      Cell cell;
+
+      bool operator<(const Placed& other) const { return this->places < other.places; }
+      bool operator==(const Placed& other) const { return this->places == other.places; }
+    };
+    std::vector<Placed> placed(this->Explored.size() - first);
+    std::atomic<std::uint64_t> most{ 0 };
+    forEachIndex(execution, placed.size(),
+      [&](std::size_t i)
       {
-        places[i] = placeOf(this->Explored[number]->vertex(static_cast<int>(i))->info().leaf());
-      }
-      std::sort(places.begin(), places.end());
-      cells.emplace_back(places, this->Explored[number]);
-    }
-    std::sort(cells.begin(), cells.end());
-    this->Explored.resize(first);
-    for (const auto& [places, cell] : cells)
-    {
-      this->explore(cell);
-    }
+        auto& [places, cell] = placed[i];
+        cell = this->Explored[first + i];
+        for (int corner = 0; corner < 4; ++corner)
+        {
+          places[static_cast<std::size_t>(corner)] = placeOf(cell->vertex(corner)->info().leaf());
+        }
+        std::sort(places.begin(), places.end());
+        std::uint64_t former = most.load(std::memory_order_relaxed);
+        while (former < places[0] &&
+               !most.compare_exchange_weak(former, places[0], std::memory_order_relaxed))
+        {
+        }
+      });
+    placed =
+      sortedUnique(execution, placed, most + 1, [](const Placed& each) { return each.places[0]; });
+    forEachIndex(execution, placed.size(),
+      [&](std::size_t i)
+      {
+        this->Explored[first + i] = placed[i].cell;
+        placed[i].cell->info().setNumber(first + i);
+      });
   }
 
   /// Lists the cells that pass a test, if the dimension is 3. @returns their number
@@ -383,10 +402,7 @@ std::size_t PartialTriangulation::beginExploring(
         inside.Aims.emplace_back(cell, infinite);
       }
     });
-  if (placeOf)
-  {
-    inside.orderExplored(0, placeOf);
-  }
+  inside.orderExplored(execution, 0, placeOf);
   return inside.Explored.size();
 }
 
@@ -417,7 +433,7 @@ std::size_t PartialTriangulation::listOpenAims()
 }
 
 std::size_t PartialTriangulation::exploreAims(
-  const std::function<std::uint64_t(std::uint64_t leaf)>& placeOf)
+  const Execution& execution, const std::function<std::uint64_t(std::uint64_t leaf)>& placeOf)
 {
   Internals& inside = *this->Inside;
   const std::size_t first = inside.Explored.size();
@@ -430,10 +446,7 @@ std::size_t PartialTriangulation::exploreAims(
     }
   }
   inside.Aims.clear();
-  if (placeOf)
-  {
-    inside.orderExplored(first, placeOf);
-  }
+  inside.orderExplored(execution, first, placeOf);
   return inside.Explored.size();
 }
 

@@ -127,7 +127,8 @@ public:
 
   /// Explores the crossing tetrahedra, which must be certified, and nothing else; aims at the
   /// tetrahedra behind crossing facets of the hull. @returns the number of tetrahedra
-  /// @param placeOf(leaf) if not null, new tetrahedra are numbered in the order of these places
+  /// @param placeOf(leaf) new tetrahedra are numbered in the order of these places, since that of
+  /// cells depends on threads and ranks
   /// @throws std::bad_alloc, Aborted
   std::size_t beginExploring(
     const Execution& execution, const std::function<std::uint64_t(std::uint64_t leaf)>& placeOf);
@@ -141,7 +142,9 @@ public:
 
   /// Explores the tetrahedra aimed at, which must be certified. @returns the number of all explored
   /// @param placeOf see beginExploring()
-  std::size_t exploreAims(const std::function<std::uint64_t(std::uint64_t leaf)>& placeOf);
+  /// @throws std::bad_alloc, Aborted
+  std::size_t exploreAims(
+    const Execution& execution, const std::function<std::uint64_t(std::uint64_t leaf)>& placeOf);
 
   /// What is across a facet: an explored tetrahedron, or one of these.
   static constexpr std::size_t outside = ~std::size_t{ 0 };

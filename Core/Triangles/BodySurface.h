@@ -8,6 +8,7 @@
 #include "Core/Triangles/CrossingVertices.h"
 #include "Core/Triangles/EdgeTriangles.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <utility>
@@ -70,32 +71,48 @@ private:
   /// The triangles of the isosurface, then of the caps, with pairs as vertices.
   std::vector<SurfaceTriangle> allTriangles()
   {
-    std::vector<SurfaceTriangle> triangles;
-    forEachInOrder(this->Exec, this->Body.crossing.size(),
-      [&](std::size_t i)
-      { this->addTriangles(this->Vertices.polygonOf(this->Body.crossing[i]), triangles); });
-    this->FirstCap = triangles.size();
+    const std::size_t crossingCount = this->Body.crossing.size();
+    const std::vector<std::size_t> begins =
+      beginsOfLists(this->Exec, crossingCount + this->Body.caps.size(),
+        [&](std::size_t i)
+        {
+          return i < crossingCount ? (this->Body.crossing[i].belowCount == 2 ? 2 : 1)
+                                   : triangleCountOf(this->Body.caps[i - crossingCount]);
+        });
+    this->FirstCap = begins[crossingCount];
+    std::vector<SurfaceTriangle> triangles(begins.back());
+    forEachIndex(this->Exec, crossingCount,
+      [&](std::size_t i) {
+        this->setTriangles(this->Vertices.polygonOf(this->Body.crossing[i]), &triangles[begins[i]]);
+      });
     this->SidesOfCaps.resize(this->Body.caps.size());
-    forEachInOrder(this->Exec, this->Body.caps.size(),
+    forEachIndex(this->Exec, this->Body.caps.size(),
       [&](std::size_t i)
       {
-        std::array<std::size_t, 3> begins{};
-        const Polygon polygon = this->Vertices.polygonOf(this->Body.caps[i], begins);
-        const std::size_t first = 3 * triangles.size();
-        const std::size_t cut = this->addTriangles(polygon, triangles);
+        const std::size_t first = begins[crossingCount + i];
+        std::array<std::size_t, 3> beginsOfSides{};
+        const Polygon polygon = this->Vertices.polygonOf(this->Body.caps[i], beginsOfSides);
+        const std::size_t cut = this->setTriangles(polygon, &triangles[first]);
         for (std::size_t side = 0; side < 3; ++side)
         {
           // Two sides of each triangle of a quadrilateral are on the facet's sides.
-          const std::size_t place = (begins[side] + polygon.count - cut) % polygon.count;
+          const std::size_t place = (beginsOfSides[side] + polygon.count - cut) % polygon.count;
           this->SidesOfCaps[i][side] =
-            first + (polygon.count == 3 ? place : place + (place >= 2 ? 1 : 0));
+            3 * first + (polygon.count == 3 ? place : place + (place >= 2 ? 1 : 0));
         }
       });
     return triangles;
   }
 
+  /// A facet with one corner below is a quadrilateral.
+  static int triangleCountOf(const CapFacet<Id>& cap)
+  {
+    return std::count(cap.areBelow.begin(), cap.areBelow.end(), true) == 1 ? 2 : 1;
+  }
+
+  /// @param triangles receives one or two
   /// @returns the place in the polygon at which the first triangle begins
-  std::size_t addTriangles(const Polygon& polygon, std::vector<SurfaceTriangle>& triangles) const
+  std::size_t setTriangles(const Polygon& polygon, SurfaceTriangle* triangles) const
   {
     std::array<std::size_t, 4> corners{};
     for (std::size_t i = 0; i < polygon.count; ++i)
@@ -104,10 +121,10 @@ private:
     }
     const std::size_t from = polygon.count == 4 && !this->Vertices.cutsFirst(corners) ? 1 : 0;
     const auto corner = [&](std::size_t i) { return corners[(from + i) % polygon.count]; };
-    triangles.push_back({ corner(0), corner(1), corner(2) });
+    triangles[0] = { corner(0), corner(1), corner(2) };
     if (polygon.count == 4)
     {
-      triangles.push_back({ corner(2), corner(3), corner(0) });
+      triangles[1] = { corner(2), corner(3), corner(0) };
     }
     return from;
   }

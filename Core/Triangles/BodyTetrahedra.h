@@ -90,10 +90,10 @@ private:
   {
     this->resize(this->Finder.triangulation().beginExploring(this->Exec, this->placeOfLeaf()));
     this->Finder.certifyAims();
-    this->resize(this->Finder.triangulation().exploreAims(this->placeOfLeaf()));
+    this->resize(this->Finder.triangulation().exploreAims(this->Exec, this->placeOfLeaf()));
   }
 
-  /// The order of new tetrahedra; needed where ranks exchange their numbers.
+  /// The order of new tetrahedra: the same for any number of threads and ranks.
   std::function<std::uint64_t(std::uint64_t)> placeOfLeaf() const
   {
     return [this](std::uint64_t leaf) { return this->placeOf(leaf); };
@@ -110,7 +110,11 @@ private:
   {
     this->Finder.triangulation().aimAcross(facets);
     this->Finder.certifyAims();
-    this->resize(this->Finder.triangulation().exploreAims(this->placeOfLeaf()));
+    this->resize(this->Finder.triangulation().exploreAims(this->Exec, this->placeOfLeaf()));
+    // The number of steps is unknown.
+    constexpr double share = 0.1; // of the remaining progress
+    this->Progress += share * (1.0 - this->Progress);
+    this->Exec.progress(this->Progress);
   }
 
   /// Calls visit(facet) for the facets of a tetrahedron with a corner that is not below.
@@ -465,6 +469,7 @@ private:
   TRanks& Ranks;
   CrossingTetrahedraFinder<TSample, TRanks>& Finder;
   std::unordered_map<std::uint64_t, double> SpacingAt; // by place of the sample
+  double Progress = 0.5;
   // By explored tetrahedron:
   std::vector<char> IsInGap;
   std::vector<char> IsReached;

@@ -22,7 +22,7 @@ struct ClosedTriangles
 /// triangles that vanish are left out, and the sides beyond them become twins. Then vertices are
 /// repeated, one for each fan. Where several edges have the same two vertices nevertheless, their
 /// triangles are paired anew, which separates fans.
-/// Complexity: O(n log n)
+/// Complexity: O(n log n) for each round of pairing anew, mostly one
 /// @param twins of the sides of all triangles; each side has one
 /// @param placeOf by vertex of the triangles
 /// @param placeCount exceeds all places

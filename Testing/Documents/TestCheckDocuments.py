@@ -47,9 +47,9 @@ DEFECTS = (  # the text of a page in docs, the line of the defect, and a word of
     (block("python", "a = 1\na = ("), 3, "Python"),
     (block("python", "raise RuntimeError('reason')"), 1, "reason"),
     (FIRST + block("python", "a"), 4, "NameError"),  # each block runs alone
-    ("| smallestPiece | GapTetrahedra.h | 8 |\n", 1, "backticks"),
+    ("| smallestPiece | GapSpread.h | 8 |\n", 1, "backticks"),
     *((f"| {name} | {file} | {value} |\n", 1, f"{name} in {file} is {known}") for name, file, value, known in (
-        ("`smallestPiece`", "GapTetrahedra.h", 9, 8), ("`smallestPiece`", "GapTetrahedra.h", "half", 8),
+        ("`smallestPiece`", "GapSpread.h", 9, 8), ("`smallestPiece`", "GapSpread.h", "half", 8),
         ("`coneCosine`", "GapCriterion.h", "1 / 2", "1.0 / 1.7"), ("`minPivot`", "NormalEquations.h", "1e-9", "1e-7"),
         ("`other`", "GapTetrahedra.h", 1, "not in"), ("`smallestPiece`", "Base.h", 1, "not in"))),
     *((f"| property | default |\n|---|---|\n| `{name}` | {value} |\n", 3, f"{name} is {known}")
