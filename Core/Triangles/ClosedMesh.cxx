@@ -17,7 +17,8 @@ class FanSeparation
 {
 public:
   FanSeparation(const Execution& execution, const std::vector<SurfaceTriangle>& triangles,
-    std::vector<HalfEdge> twins, const std::vector<std::size_t>& placeOf, std::size_t placeCount)
+    const std::vector<HalfEdge>& twins, const std::vector<std::size_t>& placeOf,
+    std::size_t placeCount)
     : Exec(execution)
     , PlaceCount(placeCount)
   {
@@ -256,10 +257,10 @@ private:
 } // namespace
 
 ClosedTriangles closedTriangles(const Execution& execution,
-  const std::vector<SurfaceTriangle>& triangles, std::vector<HalfEdge> twins,
+  const std::vector<SurfaceTriangle>& triangles, const std::vector<HalfEdge>& twins,
   const std::vector<std::size_t>& placeOf, std::size_t placeCount)
 {
-  return FanSeparation(execution, triangles, std::move(twins), placeOf, placeCount).closed();
+  return FanSeparation(execution, triangles, twins, placeOf, placeCount).closed();
 }
 
 } // namespace isopoint

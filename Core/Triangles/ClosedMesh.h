@@ -28,7 +28,7 @@ struct ClosedTriangles
 /// @param placeCount exceeds all places
 /// @throws std::bad_alloc, Aborted
 ClosedTriangles closedTriangles(const Execution& execution,
-  const std::vector<SurfaceTriangle>& triangles, std::vector<HalfEdge> twins,
+  const std::vector<SurfaceTriangle>& triangles, const std::vector<HalfEdge>& twins,
   const std::vector<std::size_t>& placeOf, std::size_t placeCount);
 
 } // namespace isopoint

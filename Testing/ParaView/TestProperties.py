@@ -73,6 +73,9 @@ def filter_accepts(instance, name):
         instance.SetValue(0, 0.5)
     if hasattr(instance, "SetCutFunction"):
         instance.SetCutFunction(vtkPlane())
+    if name == "Capping":  # what it requires
+        instance.SetRegularize(False)
+        instance.SetProjection(instance.NO_PROJECTION)
     errors = []
     instance.AddObserver("ErrorEvent", lambda *_: errors.append(1))
 
