@@ -7,6 +7,9 @@
 
 #include <cmath>
 #include <cstring>
+#include <optional>
+#include <set>
+#include <utility>
 
 namespace
 {
@@ -64,6 +67,23 @@ void compare(
   }
 }
 
+/// The surface of a body is closed: each side of a triangle has one opposite side.
+void requireClosed(const isopoint::ExtractedIsosurface& body)
+{
+  std::set<std::pair<std::size_t, std::size_t>> sides;
+  for (const isopoint::SurfaceTriangle& corners : body.triangles)
+  {
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      require(sides.emplace(corners[i], corners[(i + 1) % 3]).second, "a side of one triangle");
+    }
+  }
+  for (const auto& [start, end] : sides)
+  {
+    require(sides.count({ end, start }) == 1, "an opposite side");
+  }
+}
+
 template <class TCoordinate, class TValue>
 void run(ByteSource& bytes)
 {
@@ -83,6 +103,12 @@ void run(ByteSource& bytes)
     }
     compare(
       cloud, isovalue, angle, clouds::extractFrom(extractor, execution, isovalue, angle).edges);
+    if (bytes.flag())
+    {
+      auto request = clouds::withTriangles(clouds::requestOf(isovalue, std::nullopt, bytes.flag()));
+      request.isosurface.caps = true;
+      requireClosed(extractor.extract(execution, request));
+    }
     if (bytes.flag())
     {
       // New values at the same positions, some of them perhaps not finite.
