@@ -221,15 +221,18 @@ void isopoint_surface::interpolate(const isopoint_array* ofSamples, void* result
             next[components * i + static_cast<std::size_t>(component)] =
               isopoint::toArrayType<T>(value);
           });
-        isopoint::forEachAtSample(this->execution, part.surface,
-          [&](std::size_t i, std::uint64_t sample)
-          {
-            for (std::size_t component = 0; component < components; ++component)
+        if (!this->Caps.empty())
+        {
+          isopoint::forEachAtSample(this->execution, part.surface,
+            [&](std::size_t i, std::uint64_t sample)
             {
-              next[components * i + component] =
-                reader.at<T>(static_cast<std::size_t>(sample), static_cast<int>(component));
-            }
-          });
+              for (std::size_t component = 0; component < components; ++component)
+              {
+                next[components * i + component] =
+                  reader.at<T>(static_cast<std::size_t>(sample), static_cast<int>(component));
+              }
+            });
+        }
         next += components * part.surface.size();
       }
     });

@@ -60,16 +60,9 @@ public:
 
   bool isUpperFirst(const Node<TSample>& node) const { return this->Place[node.axis] > node.plane; }
 
-  /// The part of a region within the search radius, with a margin for rounding.
-  Region needed(Region region) const
+  Region needed(const Region& region) const
   {
-    const double reach = 1.001 * this->Distance;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      region.lower[axis] = std::max(region.lower[axis], this->Place[axis] - reach);
-      region.upper[axis] = std::min(region.upper[axis], this->Place[axis] + reach);
-    }
-    return region;
+    return partWithin(region, this->Place, this->Distance);
   }
 
   bool add(std::size_t nodeIndex)
@@ -86,12 +79,7 @@ private:
   /// Whether a region may hold a sample as near as the nearest found.
   bool isNear(const Region& region) const
   {
-    Vector gap{};
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      gap[axis] = std::max(
-        { region.lower[axis] - this->Place[axis], this->Place[axis] - region.upper[axis], 0.0 });
-    }
+    const Vector gap = gapTo(region, this->Place);
     constexpr double slack = 0.999; // for rounding
     return !this->isFarther(gap) && slack * lengthOf(gap) <= this->Distance;
   }

@@ -55,13 +55,7 @@ public:
     this->Bound = std::numeric_limits<double>::infinity();
     if (!this->Tree.isEmpty() && count > 0)
     {
-      Vector gap{};
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        gap[axis] = std::max({ this->Tree.region.lower[axis] - place[axis],
-          place[axis] - this->Tree.region.upper[axis], 0.0 });
-      }
-      this->visit(SampleTree<TSample>::rootNode, gap);
+      this->visit(SampleTree<TSample>::rootNode, gapTo(this->Tree.region, place));
     }
     std::sort(this->Heap.begin(), this->Heap.end());
     return this->IsComplete;

@@ -28,12 +28,7 @@ public:
 
   bool mayHold(const Node<TSample>& /*node*/, const Region& region) const
   {
-    Vector gap{};
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      gap[axis] = std::max(
-        { region.lower[axis] - this->Center[axis], this->Center[axis] - region.upper[axis], 0.0 });
-    }
+    const Vector gap = gapTo(region, this->Center);
     constexpr double slack = 0.999; // for rounding
     return slack * slack * dot(gap, gap) <= this->Radius * this->Radius;
   }
@@ -43,16 +38,9 @@ public:
     return this->Center[node.axis] > node.plane;
   }
 
-  /// The part of a region within the ball, with a margin for rounding.
-  Region needed(Region region) const
+  Region needed(const Region& region) const
   {
-    const double reach = 1.001 * this->Radius;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      region.lower[axis] = std::max(region.lower[axis], this->Center[axis] - reach);
-      region.upper[axis] = std::min(region.upper[axis], this->Center[axis] + reach);
-    }
-    return region;
+    return partWithin(region, this->Center, this->Radius);
   }
 
 protected:

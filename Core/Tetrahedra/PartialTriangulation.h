@@ -146,7 +146,7 @@ public:
   std::size_t exploreAims(
     const Execution& execution, const std::function<std::uint64_t(std::uint64_t leaf)>& placeOf);
 
-  /// What is across a facet: an explored tetrahedron, or one of these.
+  /// Results of across() other than numbers of explored tetrahedra.
   static constexpr std::size_t outside = ~std::size_t{ 0 };
   static constexpr std::size_t unexplored = outside - 1;
 

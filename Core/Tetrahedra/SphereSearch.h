@@ -122,7 +122,8 @@ class SphereSearch
 {
 public:
   /// @param boxes of the samples of some nodes, by index; computed on demand
-  /// @param isHullWanted whether many cells are on the hull of all samples: then boxes pay earlier
+  /// @param isHullWanted whether many cells are on the hull of all samples, so that boxes are used
+  /// earlier
   SphereSearch(const SampleTree<TSample>& tree, const PartialTriangulation& band, NodeMarks& marks,
     ConcurrentMemo<Region>& boxes, bool isHullWanted)
     : Tree(tree)
@@ -223,8 +224,8 @@ private:
     return isDone;
   }
 
-  /// Whether the search visits so many nodes that bounding boxes of samples pay: as in the huge
-  /// sphere of a sliver on the hull, which passes between a face of the hull and the samples.
+  /// Whether the search visits so many nodes that bounding boxes of samples are worth their cost,
+  /// as in the huge sphere of a sliver on the hull, which passes between the hull and the samples.
   bool isLong() const { return this->Visits - this->Begin > this->ManyVisits; }
 
   /// Whether the shape may intersect the bounding box of a node's samples. Large nodes and nodes of

@@ -13,6 +13,19 @@ namespace isopoint
 namespace
 {
 
+/// A triangle with its number, which decides among triangles with the same corners.
+struct NumberedTriangle
+{
+  SurfaceTriangle corners;
+  std::size_t number;
+
+  bool operator<(const NumberedTriangle& other) const
+  {
+    return std::tie(this->corners, this->number) < std::tie(other.corners, other.number);
+  }
+  bool operator==(const NumberedTriangle& other) const { return this->number == other.number; }
+};
+
 class FanSeparation
 {
 public:
@@ -99,17 +112,7 @@ private:
   void orderSources(
     const std::vector<SurfaceTriangle>& all, const std::vector<std::size_t>& placeOf)
   {
-    struct Placed
-    {
-      SurfaceTriangle places;
-      std::size_t source;
-      bool operator<(const Placed& other) const
-      {
-        return std::tie(this->places, this->source) < std::tie(other.places, other.source);
-      }
-      bool operator==(const Placed& other) const { return this->source == other.source; }
-    };
-    std::vector<Placed> placed(this->Sources.size());
+    std::vector<NumberedTriangle> placed(this->Sources.size());
     forEachIndex(this->Exec, placed.size(),
       [&](std::size_t i)
       {
@@ -117,10 +120,10 @@ private:
         const auto at = [&](HalfEdge corner) { return placeOf[all[corner / 3][corner % 3]]; };
         placed[i] = { { at(side), at(nextOf(side)), at(lastOf(side)) }, this->Sources[i] };
       });
-    placed = sortedUnique(
-      this->Exec, placed, this->PlaceCount, [](const Placed& each) { return each.places[0]; });
+    placed = sortedUnique(this->Exec, placed, this->PlaceCount,
+      [](const NumberedTriangle& each) { return each.corners[0]; });
     forEachIndex(
-      this->Exec, placed.size(), [&](std::size_t i) { this->Sources[i] = placed[i].source; });
+      this->Exec, placed.size(), [&](std::size_t i) { this->Sources[i] = placed[i].number; });
   }
 
   /// Numbers the fans by place, then by their first triangle.
@@ -213,25 +216,15 @@ private:
 
   ClosedTriangles ordered() const
   {
-    struct Numbered
-    {
-      SurfaceTriangle corners;
-      std::size_t triangle;
-      bool operator<(const Numbered& other) const
-      {
-        return std::tie(this->corners, this->triangle) < std::tie(other.corners, other.triangle);
-      }
-      bool operator==(const Numbered& other) const { return this->triangle == other.triangle; }
-    };
-    std::vector<Numbered> all(this->Triangles.size());
+    std::vector<NumberedTriangle> all(this->Triangles.size());
     forEachIndex(this->Exec, all.size(),
       [&](std::size_t i)
       {
         // The fan at the lowest place is the lowest one.
         all[i] = { { this->Fans[3 * i], this->Fans[3 * i + 1], this->Fans[3 * i + 2] }, i };
       });
-    all = sortedUnique(
-      this->Exec, all, this->Places.size(), [](const Numbered& each) { return each.corners[0]; });
+    all = sortedUnique(this->Exec, all, this->Places.size(),
+      [](const NumberedTriangle& each) { return each.corners[0]; });
     ClosedTriangles result;
     result.places = this->Places;
     result.triangles.resize(all.size());
@@ -240,7 +233,7 @@ private:
       [&](std::size_t i)
       {
         result.triangles[i] = all[i].corners;
-        result.sources[i] = this->Sources[all[i].triangle];
+        result.sources[i] = this->Sources[all[i].number];
       });
     return result;
   }

@@ -132,12 +132,15 @@ void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkDataS
       {
         interpolateArray(
           execution, surface, numbers, vtkDataArray::SafeDownCast(result), firstTuple);
-        isopoint::forEachAtSample(isopoint::Execution(), surface,
-          [&](std::size_t i, std::uint64_t sample)
-          {
-            result->SetTuple(
-              firstTuple + static_cast<vtkIdType>(i), static_cast<vtkIdType>(sample), array);
-          });
+        if (!extracted.areCaps.empty())
+        {
+          isopoint::forEachAtSample(isopoint::Execution(), surface,
+            [&](std::size_t i, std::uint64_t sample)
+            {
+              result->SetTuple(
+                firstTuple + static_cast<vtkIdType>(i), static_cast<vtkIdType>(sample), array);
+            });
+        }
       }
       else
       {

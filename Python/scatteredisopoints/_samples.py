@@ -194,7 +194,7 @@ class Samples:
         self._held = key
 
     def _hold_values(self, callbacks: Mapping[str, Any]) -> None:
-        """Makes the samples' own values those that the extractor holds, after those of a slice."""
+        """Loads the samples' own values again if the extractor holds others, such as those of a slice."""
         if self._held != _VALUES and self._values is not None:
             self._hold(_VALUES, readable("values", as_numpy(self._values)), [self._excluded, self._masked], callbacks)
 
@@ -413,7 +413,10 @@ class Samples:
         return values, gradients, kinds
 
     def _describe_left_out(self, skipped: Optional[int] = None) -> Iterator[str]:
-        """Messages about samples that take no part. Give the number of those that a slice skips."""
+        """Messages about samples that are left out.
+
+        skipped: how many a slice leaves out; None: as many as a contour.
+        """
         lacking = "position or value is not finite, or masked" if skipped is None else "position is not finite"
         skipped = self._skipped if skipped is None else skipped
         skipped -= 0 if self._excluded is None else np.count_nonzero(self._excluded)

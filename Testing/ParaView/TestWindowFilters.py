@@ -96,7 +96,7 @@ def play_samples(events, before="", after=""):
 
 def use(name, change, chosen=(), before=""):
     """A user applies a filter, changes it, undoes and redoes that, and saves the state. Scripts of pvbatch repeat that.
-    @returns what is shown, and the data before and after the change"""
+    @returns the output shown, and the data before and after the change"""
     state = str(FOLDER / "state.pvsm")
     # Saving data clears what can be redone.
     shown, said = play_samples([
