@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <atomic>
 #include <cstddef>
+#include <memory>
 #include <mutex>
-#include <shared_mutex>
-#include <unordered_map>
+#include <vector>
 
 namespace isopoint
 {
 
-/// Values computed on demand and shared by all threads, by index.
+/// Values computed on demand and shared by all threads, by index. Known values are read without a
+/// lock. Memory: 64 values for each aligned range of 64 indices with a known value, and a pointer
+/// for each range up to about eight times the greatest index.
 template <class T>
 class ConcurrentMemo
 {
@@ -20,22 +24,69 @@ public:
   template <class Compute>
   T at(std::size_t index, const Compute& compute)
   {
+    Block& block = this->blockAt(index / blockSize);
+    const std::size_t place = index % blockSize;
+    if (!block.isKnown[place].load(std::memory_order_acquire))
     {
-      const std::shared_lock<std::shared_mutex> lock(this->Mutex);
-      const auto found = this->Values.find(index);
-      if (found != this->Values.end())
+      const T value = compute();
+      const std::lock_guard<std::mutex> lock(this->Mutex);
+      if (!block.isKnown[place].load(std::memory_order_relaxed))
       {
-        return found->second;
+        block.values[place] = value;
+        block.isKnown[place].store(true, std::memory_order_release);
       }
     }
-    const T value = compute();
-    const std::lock_guard<std::shared_mutex> lock(this->Mutex);
-    return this->Values.emplace(index, value).first->second;
+    return block.values[place];
   }
 
 private:
-  std::shared_mutex Mutex;
-  std::unordered_map<std::size_t, T> Values;
+  static constexpr std::size_t blockSize = 64;
+
+  struct Block
+  {
+    std::array<T, blockSize> values;
+    std::array<std::atomic<bool>, blockSize> isKnown{};
+  };
+
+  /// Rows of blocks never move; each is eight times as long as the one before.
+  static constexpr std::size_t rowCount = 18;
+  static constexpr std::size_t firstRowSize = 1024;
+  using Row = std::vector<std::atomic<Block*>>;
+
+  Block& blockAt(std::size_t number)
+  {
+    std::size_t row = 0;
+    std::size_t size = firstRowSize;
+    for (; number >= size; ++row, size *= 8)
+    {
+      number -= size;
+    }
+    const Row* const known = this->Rows[row].load(std::memory_order_acquire);
+    Block* const block = known ? (*known)[number].load(std::memory_order_acquire) : nullptr;
+    return block ? *block : this->makeBlock(row, size, number);
+  }
+
+  Block& makeBlock(std::size_t row, std::size_t size, std::size_t number)
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    if (!this->OwnRows[row])
+    {
+      this->OwnRows[row] = std::make_unique<Row>(size);
+      this->Rows[row].store(this->OwnRows[row].get(), std::memory_order_release);
+    }
+    std::atomic<Block*>& place = (*this->OwnRows[row])[number];
+    if (!place.load(std::memory_order_relaxed))
+    {
+      this->OwnBlocks.push_back(std::make_unique<Block>());
+      place.store(this->OwnBlocks.back().get(), std::memory_order_release);
+    }
+    return *place.load(std::memory_order_relaxed);
+  }
+
+  std::mutex Mutex; // for changes
+  std::array<std::atomic<Row*>, rowCount> Rows{};
+  std::array<std::unique_ptr<Row>, rowCount> OwnRows;
+  std::vector<std::unique_ptr<Block>> OwnBlocks;
 };
 
 } // namespace isopoint

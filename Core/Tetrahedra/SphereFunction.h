@@ -83,12 +83,12 @@ public:
     return this->Center[a] > this->Scale * coordinate - this->ScaledOrigin[a];
   }
 
+  /// A lower bound of F, of terms from least().
+  static double sum(const Vector& shares) { return shares[0] + shares[1] + shares[2]; }
+
   /// Whether a sum of terms from least() is certainly positive.
-  static bool isPositive(const Vector& shares) { return shares[0] + shares[1] + shares[2] > tiny; }
-  static bool isNotNegative(const Vector& shares)
-  {
-    return shares[0] + shares[1] + shares[2] >= -tiny;
-  }
+  static bool isPositive(const Vector& shares) { return sum(shares) > tiny; }
+  static bool isNotNegative(const Vector& shares) { return sum(shares) >= -tiny; }
 
   Side sideOf(const Vector& position) const
   {
@@ -104,7 +104,7 @@ public:
     {
       return Side::Outside;
     }
-    return high[0] + high[1] + high[2] < -tiny ? Side::Inside : Side::Unknown;
+    return sum(high) < -tiny ? Side::Inside : Side::Unknown;
   }
 
 private:

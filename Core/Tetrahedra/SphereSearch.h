@@ -11,6 +11,7 @@
 #include "Core/Tree/TreeRefinement.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -63,6 +64,11 @@ public:
   bool isAbove(int axis, double coordinate) const { return this->Ball.isAbove(axis, coordinate); }
   Side sideOf(const Vector& position) const { return this->Ball.sideOf(position); }
 
+  /// Any sample inside will do.
+  static constexpr bool isBestWanted = false;
+  static bool isBetter(const Vector& /*position*/) { return true; }
+  static void setBest(const Vector& /*position*/) {}
+
 private:
   SphereFunction Ball;
 };
@@ -92,14 +98,14 @@ public:
 
   bool mayHold(const Bounds& bounds) const
   {
-    return !SphereFunction::isPositive(bounds.beyond) &&
+    return !SphereFunction::isPositive(bounds.beyond) && this->isFarther(bounds.beyond) &&
            !(SphereFunction::isNotNegative(bounds.beyond) &&
              SphereFunction::isPositive(bounds.ball));
   }
   bool mayReach(const Region& box) const
   {
     const Vector beyond = this->Beyond.leastIn(box);
-    return !SphereFunction::isPositive(beyond) &&
+    return !SphereFunction::isPositive(beyond) && this->isFarther(beyond) &&
            !(SphereFunction::isNotNegative(beyond) &&
              SphereFunction::isPositive(this->Ball.leastIn(box)));
   }
@@ -107,7 +113,26 @@ public:
   bool isAbove(int axis, double coordinate) const { return this->Beyond.isAbove(axis, coordinate); }
   Side sideOf(const Vector& position) const { return this->Beyond.sideOf(position); }
 
+  /// The sample farthest beyond the plane is a corner of the hull of all samples.
+  static constexpr bool isBestWanted = true;
+  bool isBetter(const Vector& position) const
+  {
+    return this->isFarther(this->Beyond.leastIn({ position, position }));
+  }
+
+  /// From now on, boxes that are not farther than the position are as if not intersected.
+  void setBest(const Vector& position)
+  {
+    this->Farthest = SphereFunction::sum(this->Beyond.leastIn({ position, position }));
+  }
+
 private:
+  bool isFarther(const Vector& beyond) const
+  {
+    return SphereFunction::sum(beyond) < this->Farthest;
+  }
+
+  double Farthest = HUGE_VAL;
   SphereFunction Beyond;
   SphereFunction Ball;
 };
@@ -116,26 +141,28 @@ private:
 constexpr std::size_t fewSamples = 16;
 
 /// Searches the tree for a sample inside the sphere of a cell, approximately nearest to the center
-/// first. In a process group, only this rank's samples are searched. Reuses memory. For one thread.
+/// first; beyond a facet of the hull, for the farthest. In a process group, only this rank's
+/// samples are searched. Reuses memory. For one thread.
 template <class TSample>
 class SphereSearch
 {
 public:
   /// @param boxes of the samples of some nodes, by index; computed on demand
-  /// @param isHullWanted whether many cells are on the hull of all samples, so that boxes are used
-  /// earlier
+  /// @param isHullWanted whether many cells are on the hull of all samples, so that boxes are worth
+  /// their cost at once
   SphereSearch(const SampleTree<TSample>& tree, const PartialTriangulation& band, NodeMarks& marks,
     ConcurrentMemo<Region>& boxes, bool isHullWanted)
     : Tree(tree)
     , Band(band)
     , Marks(marks)
     , Boxes(boxes)
-    , ManyVisits(isHullWanted ? 16 : 250)
+    , ManyVisits(isHullWanted ? 0 : 250)
     , ManySamples(isHullWanted ? tree.samples.size() : smallNode)
   {
   }
 
-  /// Finds a sample outside the band but inside the sphere of a listed cell. Sets the marks above.
+  /// Finds a sample outside the band but inside the sphere of a listed cell, as above. Sets the
+  /// marks above.
   /// @returns its leaf. Nothing means that there is none if isComplete()
   std::optional<std::size_t> find(std::size_t openCell)
   {
@@ -158,7 +185,7 @@ public:
 
 private:
   template <class TShape>
-  std::optional<std::size_t> findIn(const TShape& shape)
+  std::optional<std::size_t> findIn(TShape shape)
   {
     this->Found.reset();
     Region box = this->Tree.region;
@@ -179,7 +206,7 @@ private:
   /// @returns whether the search is finished
   template <class TShape>
   bool visit(
-    std::size_t nodeIndex, const TShape& shape, const typename TShape::Bounds& bounds, Region& box)
+    std::size_t nodeIndex, TShape& shape, const typename TShape::Bounds& bounds, Region& box)
   {
     ++this->Visits;
     const Node<TSample>& node = this->Tree.nodes[nodeIndex];
@@ -187,7 +214,7 @@ private:
     {
       return false;
     }
-    if (this->isLong() && !this->mayReachSamples(nodeIndex, shape))
+    if (node.isSplit() && this->isLong() && !this->mayReachSamples(nodeIndex, shape))
     {
       this->Marks.set(nodeIndex, bandmarks::missed);
       return false;
@@ -203,7 +230,7 @@ private:
   }
 
   template <class TShape>
-  bool visitFarther(const Node<TSample>& node, bool isUpper, const TShape& shape,
+  bool visitFarther(const Node<TSample>& node, bool isUpper, TShape& shape,
     typename TShape::Bounds bounds, Region& box)
   {
     const int axis = node.axis;
@@ -213,7 +240,7 @@ private:
   }
 
   template <class TShape>
-  bool visitChild(const Node<TSample>& node, bool isUpper, const TShape& shape,
+  bool visitChild(const Node<TSample>& node, bool isUpper, TShape& shape,
     const typename TShape::Bounds& bounds, Region& box)
   {
     double& bound = isUpper ? box.lower[node.axis] : box.upper[node.axis];
@@ -228,16 +255,21 @@ private:
   /// as in the huge sphere of a sliver on the hull, which passes between the hull and the samples.
   bool isLong() const { return this->Visits - this->Begin > this->ManyVisits; }
 
-  /// Whether the shape may intersect the bounding box of a node's samples. Large nodes and nodes of
-  /// few samples always pass, since their boxes are costly or hardly smaller than their regions.
+  /// Whether the shape may hold a sample of a node, as far as their bounding box tells, or, of few
+  /// samples, their positions. Large nodes always pass, since their boxes are costly.
   template <class TShape>
   bool mayReachSamples(std::size_t nodeIndex, const TShape& shape)
   {
     const Node<TSample>& node = this->Tree.nodes[nodeIndex];
-    if (node.count() <= fewSamples || node.count() > this->ManySamples ||
-        !this->Tree.hasOnlyOwn(node))
+    if (node.count() > this->ManySamples || !this->Tree.hasOnlyOwn(node))
     {
       return true;
+    }
+    if (node.count() <= fewSamples)
+    {
+      const TSample* const samples = this->Tree.samples.data();
+      return std::any_of(samples + node.begin, samples + node.end,
+        [&](const TSample& sample) { return shape.sideOf(positionOf(sample)) != Side::Outside; });
     }
     return shape.mayReach(
       this->Boxes.at(nodeIndex, [&]() { return boxOfSamples(this->Tree, node); }));
@@ -245,17 +277,19 @@ private:
 
   /// The same for a node without children.
   template <class TShape>
-  bool visitEnd(std::size_t nodeIndex, const TShape& shape)
+  bool visitEnd(std::size_t nodeIndex, TShape& shape)
   {
     const Node<TSample>& node = this->Tree.nodes[nodeIndex];
     if (node.isLeaf)
     {
       this->Marks.set(nodeIndex, bandmarks::reached);
-      if (!this->Marks.has(nodeIndex, bandmarks::inBand) && this->isInside(shape, node.begin))
+      if (this->Marks.has(nodeIndex, bandmarks::inBand) || !this->isInside(shape, node.begin))
       {
-        this->Found = nodeIndex;
+        return false;
       }
-      return this->Found.has_value();
+      this->Found = nodeIndex;
+      shape.setBest(positionOf(this->Tree.samples[node.begin]));
+      return !TShape::isBestWanted;
     }
     constexpr std::size_t manyUnsplit = 64;
     bool hasToBeSplit = node.count() > fewSamples;
@@ -280,6 +314,10 @@ private:
   bool isInside(const TShape& shape, std::size_t sample)
   {
     const Vector position = positionOf(this->Tree.samples[sample]);
+    if (!shape.isBetter(position))
+    {
+      return false;
+    }
     const Side side = shape.sideOf(position);
     if (side == Side::Unknown)
     {
