@@ -70,10 +70,11 @@ void checkOptions(const Options& options, OptionNaming naming)
         throw UsageError(message.str());
       }
     });
-  if (options.triangles && options.capping && (options.regularize || options.projection != 0))
+  if (options.triangles && options.capping &&
+      options.projection == static_cast<int>(FitOrder::Crease))
   {
-    throw UsageError(naming(option::capping.name) + " requires " + naming(option::regularize.name) +
-                     " off and " + naming(option::projection.name) + " 0.");
+    throw UsageError(naming(option::capping.name) + " has no creases: set " +
+                     naming(option::projection.name) + " to 3 or less.");
   }
   if (options.triangles && options.capping &&
       (options.computeGradients || options.normalMethod == static_cast<int>(NormalMethod::Field)))
@@ -121,7 +122,7 @@ ExtractionRequest requestOf(const Options& options)
   ExtractionRequest request;
   request.isosurface.angle = options.angle;
   request.isosurface.dropsGaps = options.dropGaps;
-  request.isosurface.fit = options.capping ? std::nullopt : fitRequestOf(options);
+  request.isosurface.fit = fitRequestOf(options);
   request.isosurface.duplicatesCreaseVertices = options.computeNormals;
   request.isosurface.regularizes = options.regularize;
   request.isosurface.keepsHullSlivers = options.keepHullSlivers;

@@ -82,8 +82,7 @@ struct IsosurfaceRequest
   /// that of the body (docs/triangles.md).
   bool keepsHullSlivers = false;
   /// Triangles only: whether the surface is that of the body of the samples at or above the
-  /// isovalue, closed by caps where the samples end (docs/triangles.md). Requires neither fits nor
-  /// regularization.
+  /// isovalue, closed by caps where the samples end (docs/triangles.md). Not with creases.
   bool caps = false;
 };
 

@@ -83,7 +83,13 @@ private:
 /// The place of an edge in tree order.
 struct TreePlace : SampleEdge // with places of samples instead of ids
 {
-  std::size_t edge;
+  std::size_t edge; // several can be the same: see Isosurface
+
+  bool operator<(const TreePlace& other) const
+  {
+    return SampleEdge::operator==(other) ? this->edge < other.edge : SampleEdge::operator<(other);
+  }
+  bool operator==(const TreePlace& other) const { return this->edge == other.edge; }
 };
 
 /// Edges in tree order: consecutive ones are close, whatever the samples' ids.

@@ -11,19 +11,12 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 #include <vector>
 
 namespace isopoint
 {
-
-/// The triangles of a body's surface, with one edge per vertex; vertices and triangles are ordered.
-template <class TSample>
-struct BodyTriangles
-{
-  EdgeTriangles<TSample> mesh;
-  std::vector<char> areCaps; // by triangle
-};
 
 /// Makes the closed surface of a body: marching tetrahedra, and caps clipped at the isovalue.
 template <class TSample>
@@ -33,15 +26,16 @@ public:
   using Id = typename TSample::Id;
 
   BodySurface(const Execution& execution, const SampleTree<TSample>& tree,
-    LeafValues<TSample>& values, double isovalue, const BodyTetrahedra<Id>& body)
+    LeafValues<TSample>& values, double isovalue, EdgeOrder order, const BodyTetrahedra<Id>& body)
     : Exec(execution)
+    , Order(order)
     , Body(body)
-    , Vertices(execution, tree, values, isovalue, EdgeOrder::Ids, body.crossing, body.caps)
+    , Vertices(execution, tree, values, isovalue, order, body.crossing, body.caps)
   {
   }
 
   /// Complexity: O(n log n) @throws std::bad_alloc, Aborted
-  BodyTriangles<TSample> find()
+  MarchedTriangles<TSample> find()
   {
     this->Vertices.find();
     const std::vector<SurfaceTriangle> triangles = this->allTriangles();
@@ -54,14 +48,16 @@ public:
       [&](std::size_t pair) { placeOfVertex[pair] = placeOf[this->Vertices.vertexOf(pair)]; });
     const ClosedTriangles closed =
       closedTriangles(this->Exec, triangles, this->twinsOf(triangles), placeOfVertex, order.size());
-    BodyTriangles<TSample> result;
+    MarchedTriangles<TSample> result;
     const std::vector<std::size_t> pairs = chosenOf(this->Exec, order, closed.places);
-    result.mesh.edges = chosenOf(this->Exec, this->Vertices.edges(), pairs);
-    result.mesh.positions = chosenOf(this->Exec, this->Vertices.positions(), pairs);
-    result.mesh.triangles = closed.triangles;
-    result.areCaps.resize(closed.sources.size());
-    forEachIndex(this->Exec, closed.sources.size(),
-      [&](std::size_t i) { result.areCaps[i] = closed.sources[i] >= this->FirstCap ? 1 : 0; });
+    result.edges = chosenOf(this->Exec, this->Vertices.edges(), pairs);
+    result.positions = chosenOf(this->Exec, this->Vertices.positions(), pairs);
+    result.nearerEnds = chosenOf(this->Exec, this->Vertices.nearerEnds(), pairs);
+    result.endCount = this->Vertices.endCount();
+    result.triangles = closed.triangles;
+    result.caps = chosenOf(this->Exec, closed.triangles,
+      itemsThat(this->Exec, closed.sources.size(),
+        [&](std::size_t i) { return closed.sources[i] >= this->FirstCap; }));
     return result;
   }
 
@@ -163,6 +159,12 @@ private:
   /// The pairs in the order of their edges.
   std::vector<std::size_t> placesInOrder() const
   {
+    if (this->Order == EdgeOrder::Tree)
+    {
+      std::vector<std::size_t> places(this->Vertices.pairCount());
+      std::iota(places.begin(), places.end(), std::size_t{ 0 });
+      return places;
+    }
     EdgeTriangles<TSample> vertices;
     vertices.edges = this->Vertices.edges();
     vertices.positions = this->Vertices.positions();
@@ -170,6 +172,7 @@ private:
   }
 
   const Execution& Exec;
+  const EdgeOrder Order;
   const BodyTetrahedra<Id>& Body;
   CrossingVertices<TSample> Vertices;
   std::size_t FirstCap = 0;

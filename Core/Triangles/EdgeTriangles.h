@@ -17,6 +17,7 @@
 namespace isopoint
 {
 
+/// Triangles whose vertices have edges of the tetrahedralization.
 template <class TSample>
 struct EdgeTriangles
 {
@@ -26,6 +27,7 @@ struct EdgeTriangles
   std::vector<std::size_t> edgeBegins;    // see Isosurface
   std::vector<Vector> positions;          // crossings, or their means
   std::vector<SurfaceTriangle> triangles; // ordered
+  std::vector<SurfaceTriangle> caps;      // those of caps; ordered
 
   std::size_t edgeBegin(std::size_t vertex) const
   {
@@ -39,6 +41,43 @@ struct EdgeTriangles
       [&](std::size_t vertex) { first[vertex] = this->edges[this->edgeBegin(vertex)]; });
     return first;
   }
+
+  /// By vertex, whether it is one of a cap.
+  std::vector<char> areOfCaps(const Execution& execution) const
+  {
+    std::vector<char> marks(this->positions.size(), 0);
+    forEachInOrder(execution, this->caps.size(),
+      [&](std::size_t i)
+      {
+        for (const std::size_t vertex : this->caps[i])
+        {
+          marks[vertex] = 1;
+        }
+      });
+    return marks;
+  }
+
+  /// The triangles of the isosurface.
+  std::vector<SurfaceTriangle> withoutCaps(const Execution& execution) const
+  {
+    std::vector<SurfaceTriangle> others = this->triangles;
+    dropMarked(execution, this->areCaps(execution), others);
+    return others;
+  }
+
+  /// By triangle, whether it is one of a cap.
+  std::vector<char> areCaps(const Execution& execution) const
+  {
+    std::vector<char> marks(this->triangles.size(), 0);
+    forEachIndex(execution, marks.size(),
+      [&](std::size_t i)
+      {
+        const bool isCap =
+          std::binary_search(this->caps.begin(), this->caps.end(), this->triangles[i]);
+        marks[i] = isCap ? 1 : 0;
+      });
+    return marks;
+  }
 };
 
 /// Triangles whose vertices have one edge each, sorted by the edges' ends in the tree.
@@ -50,14 +89,23 @@ struct MarchedTriangles : EdgeTriangles<TSample>
   std::size_t endCount = 0; // exceeds all of these numbers
 };
 
-/// See mergeVertices(). @throws std::bad_alloc, Aborted
+/// See mergeVertices(). Vertices of caps stay. @throws std::bad_alloc, Aborted
 template <class TSample>
 EdgeTriangles<TSample> withMergedVertices(const Execution& execution,
   MarchedTriangles<TSample> marched, std::vector<char> areKept, bool keepsRim)
 {
+  const bool hasCaps = !marched.caps.empty();
   MergedTriangles merged = mergeVertices(execution, marched.positions, marched.nearerEnds,
-    marched.endCount, std::move(marched.triangles), std::move(areKept), keepsRim);
+    marched.endCount, std::move(marched.triangles),
+    hasCaps ? marched.areOfCaps(execution) : std::move(areKept), keepsRim || hasCaps);
   EdgeTriangles<TSample> result;
+  if (hasCaps)
+  {
+    std::vector<std::size_t> firsts(merged.size()); // members, the only ones of vertices that stay
+    forEachIndex(execution, firsts.size(),
+      [&](std::size_t vertex) { firsts[vertex] = merged.members[merged.memberBegins[vertex]]; });
+    result.caps = renumbered(execution, marched.caps, firsts, marched.positions.size());
+  }
   result.edges = chosenOf(execution, marched.edges, merged.members);
   result.edgeBegins = std::move(merged.memberBegins);
   result.positions = std::move(merged.positions);
@@ -72,7 +120,14 @@ std::vector<std::size_t> orderOfEdges(
 {
   struct EdgeVertex : SampleEdge
   {
-    std::size_t vertex;
+    std::size_t vertex; // several can have one edge: see Isosurface
+
+    bool operator<(const EdgeVertex& other) const
+    {
+      return SampleEdge::operator==(other) ? this->vertex < other.vertex
+                                           : SampleEdge::operator<(other);
+    }
+    bool operator==(const EdgeVertex& other) const { return this->vertex == other.vertex; }
   };
   std::vector<EdgeVertex> vertices(triangles.positions.size());
   std::uint64_t most = 0;
@@ -100,6 +155,7 @@ EdgeTriangles<TSample> inOrder(const Execution& execution, const EdgeTriangles<T
   result.edges = chosenOf(execution, triangles.edges, triangles.edgeBegins.empty() ? order : edges);
   result.positions = chosenOf(execution, triangles.positions, order);
   result.triangles = renumbered(execution, triangles.triangles, order, order.size());
+  result.caps = renumbered(execution, triangles.caps, order, order.size());
   return result;
 }
 

@@ -70,10 +70,6 @@ public:
     {
       return {};
     }
-    if (this->Request.caps)
-    {
-      return this->extractBody();
-    }
     constexpr double fitsEnd = 0.9; // shares of the progress
     const double mergingBegin = this->Request.fit ? 0.6 : 0.85;
     const double fitsBegin = this->hasCreases() ? 0.8 : mergingBegin + 0.05;
@@ -138,29 +134,19 @@ private:
     return found;
   }
 
-  TriangleSurface extractBody()
-  {
-    constexpr double bodyEnd = 0.8; // shares of the progress
-    constexpr double meshEnd = 0.95;
-    const BodyTetrahedra<Id> body = this->bodyTetrahedra(partOf(this->Exec, 0.0, bodyEnd));
-    const Execution part = partOf(this->Exec, bodyEnd, meshEnd);
-    BodyTriangles<TSample> found =
-      BodySurface<TSample>(part, this->Tree, this->Values, this->Request.isovalue, body).find();
-    ExtractionContext<TSample> context(this->Tree, this->Neighborhoods, this->Request.isovalue);
-    TriangleSurface surface;
-    surface.vertices = placeIsopoints<TSample>(partOf(this->Exec, meshEnd, 1.0), context,
-      { found.mesh.edges, {}, found.mesh.positions }, {}, false);
-    surface.triangles = std::move(found.mesh.triangles);
-    surface.areCaps = std::move(found.areCaps);
-    surface.droppedTetrahedra = body.droppedCount;
-    surface.vertices.coincident = coincidentEnds(this->Exec, this->Tree, surface.vertices.leaves);
-    return surface;
-  }
-
   MarchedTriangles<TSample> march(const Execution& execution)
   {
     constexpr double tetrahedraEnd = 0.8; // shares of the progress
     constexpr double gapsEnd = 0.9;
+    const EdgeOrder order = this->Request.regularizes ? EdgeOrder::Tree : EdgeOrder::Ids;
+    if (this->Request.caps)
+    {
+      const BodyTetrahedra<Id> body = this->bodyTetrahedra(partOf(execution, 0.0, gapsEnd));
+      this->Dropped = body.droppedCount;
+      return BodySurface<TSample>(partOf(execution, gapsEnd, 1.0), this->Tree, this->Values,
+        this->Request.isovalue, order, body)
+        .find();
+    }
     std::vector<CrossingTetrahedron<Id>> found =
       this->tetrahedra(partOf(execution, 0.0, tetrahedraEnd));
     if (this->Request.dropsGaps)
@@ -168,7 +154,7 @@ private:
       this->dropGaps(partOf(execution, tetrahedraEnd, gapsEnd), found);
     }
     return MarchingTetrahedra<TSample>(partOf(execution, gapsEnd, 1.0), this->Tree, this->Values,
-      this->Request.isovalue, this->Request.regularizes ? EdgeOrder::Tree : EdgeOrder::Ids, found)
+      this->Request.isovalue, order, found)
       .march();
   }
 
@@ -201,12 +187,13 @@ private:
       std::move(areKept), this->Request.keepsHullSlivers);
   }
 
+  /// The vertices of caps at samples stay there, without fits.
   /// @param known fits that are reused
   std::vector<LocalFit> fitTo(const Execution& execution, ExtractionContext<TSample>& context,
     const EdgeTriangles<TSample>& mesh, const FitsAtEdges& known)
   {
-    std::vector<CrossingEdge<TSample>> edges = mesh.firstEdges(this->Exec);
-    if (known.empty())
+    const std::vector<CrossingEdge<TSample>> edges = mesh.firstEdges(this->Exec);
+    if (known.empty() && mesh.caps.empty())
     {
       return this->Ranks.fitShared(execution, context, *this->Request.fit, edges, mesh.positions);
     }
@@ -215,12 +202,13 @@ private:
     forEachIndex(execution, edges.size(),
       [&](std::size_t vertex)
       {
+        fits[vertex].position = mesh.positions[vertex];
         const auto found = known.find(edges[vertex]);
         if (found != known.end())
         {
           fits[vertex] = found->second;
         }
-        areUnknown[vertex] = found == known.end() ? 1 : 0;
+        areUnknown[vertex] = found == known.end() && !edges[vertex].isSample() ? 1 : 0;
       });
     const std::vector<std::size_t> unknown = markedOf(execution, areUnknown);
     const std::vector<LocalFit> others =
@@ -247,7 +235,13 @@ private:
     EdgeTriangles<TSample>& mesh, std::vector<LocalFit> fits)
   {
     const bool isMoved = this->Request.fit && this->Request.fit->move;
-    if (isMoved)
+    if (isMoved && !mesh.caps.empty())
+    {
+      this->keepRimOnEdges(mesh, fits);
+      keepTrianglesUpright(
+        partOf(execution, 0.0, 0.5), mesh.positions, mesh.withoutCaps(this->Exec), fits);
+    }
+    else if (isMoved)
     {
       keepTrianglesUpright(partOf(execution, 0.0, 0.5), mesh.positions, mesh.triangles, fits);
     }
@@ -261,6 +255,10 @@ private:
     TriangleSurface surface;
     surface.vertices = placeIsopoints<TSample>(partOf(execution, 0.5, 1.0), context,
       { mesh.edges, mesh.edgeBegins, mesh.positions }, std::move(fits), isMoved);
+    if (this->Request.caps)
+    {
+      surface.areCaps = mesh.areCaps(this->Exec);
+    }
     surface.triangles = std::move(mesh.triangles);
     if (isMoved && this->hasCreases())
     {
@@ -271,6 +269,33 @@ private:
     return surface;
   }
 
+  /// Vertices of the rim, between isosurface and caps, move along their edges only, so that caps
+  /// stay where they are: to the tangent plane of the fit.
+  void keepRimOnEdges(const EdgeTriangles<TSample>& mesh, std::vector<LocalFit>& fits) const
+  {
+    const std::vector<char> areOfCaps = mesh.areOfCaps(this->Exec);
+    forEachIndex(this->Exec, fits.size(),
+      [&](std::size_t vertex)
+      {
+        LocalFit& fit = fits[vertex];
+        if (!areOfCaps[vertex] || !fit.order)
+        {
+          return;
+        }
+        const CrossingEdge<TSample>& edge = mesh.edges[mesh.edgeBegin(vertex)];
+        const Vector first = positionOf(this->Tree.sampleOf(edge.firstLeaf));
+        const Vector second = positionOf(this->Tree.sampleOf(edge.secondLeaf));
+        const Vector rising = directionOf(fit.gradient);
+        const double parameter = dot(rising, fit.position - first) / dot(rising, second - first);
+        const bool isInside = parameter > 0.0 && parameter < 1.0;
+        fit.position = isInside ? interpolate(first, second, parameter) : mesh.positions[vertex];
+        if (!isInside)
+        {
+          fit.order.reset();
+        }
+      });
+  }
+
   void flipEdgesOf(EdgeTriangles<TSample>& mesh, const std::vector<LocalFit>& fits) const
   {
     std::vector<Vector> positions = mesh.positions;
@@ -278,7 +303,7 @@ private:
       [&](std::size_t vertex) { positions[vertex] = fits[vertex].position; });
     const std::vector<char> areKept = this->hasCreases()
                                         ? areAtCreases(this->Exec, fits, mesh.triangles)
-                                        : std::vector<char>(positions.size(), 0);
+                                        : mesh.areOfCaps(this->Exec);
     flipEdges(this->Exec, positions, areKept, mesh.triangles);
   }
 

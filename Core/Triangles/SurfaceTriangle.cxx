@@ -43,6 +43,10 @@ std::vector<SurfaceTriangle> renumbered(const Execution& execution,
   const std::vector<SurfaceTriangle>& triangles, const std::vector<std::size_t>& order,
   std::size_t vertexCount)
 {
+  if (triangles.empty())
+  {
+    return {};
+  }
   std::vector<std::size_t> number(vertexCount);
   forEachIndex(execution, order.size(), [&](std::size_t place) { number[order[place]] = place; });
   std::vector<SurfaceTriangle> result(triangles.size());

@@ -77,7 +77,10 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
   takeBackFarMoves(execution, unmoved, triangles, outgoing, fits);
   const auto isMoved = [&fits](std::size_t vertex) { return fits[vertex].order.has_value(); };
   const auto fallingAt = [&fits](std::size_t vertex)
-  { return -directionOf(fits[vertex].gradient); };
+  {
+    const Vector& gradient = fits[vertex].gradient;
+    return lengthOf(gradient) > 0.0 ? -directionOf(gradient) : Vector{}; // none at samples
+  };
   const auto isTurned = [&](const SurfaceTriangle& triangle)
   {
     const auto& [a, b, c] = triangle;

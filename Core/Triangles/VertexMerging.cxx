@@ -214,11 +214,11 @@ private:
     const SurfaceMesh& mesh, const VertexParts& parts, const std::vector<Vector>& former)
   {
     const PartPlaces places(mesh, parts, former, this->Result.memberBegins);
-    std::vector<char> areMerged = contractibleParts(this->Exec, mesh, parts);
-    if (this->KeepsRim)
+    std::vector<char> areMerged(parts.size(), 1);
+    do
     {
-      this->keepUpright(mesh, parts, places, former, areMerged);
-    }
+      areMerged = contractibleParts(this->Exec, mesh, parts, std::move(areMerged));
+    } while (this->KeepsRim && this->separateTurned(mesh, parts, places, former, areMerged));
     const auto isMerged = [&](std::size_t vertex)
     { return parts.partOf[vertex] != VertexParts::none && areMerged[parts.partOf[vertex]]; };
     // The lowest vertex of each merged part, and all others.
@@ -256,7 +256,8 @@ private:
   }
 
   /// Leaves parts apart that would turn triangles over, as they may next to a rim that stays.
-  void keepUpright(const SurfaceMesh& mesh, const VertexParts& parts, const PartPlaces& places,
+  /// @returns whether there were any; their neighbors may be no longer contractible
+  bool separateTurned(const SurfaceMesh& mesh, const VertexParts& parts, const PartPlaces& places,
     const std::vector<Vector>& former, std::vector<char>& areMerged) const
   {
     std::vector<Vector> means(parts.parts.size());
@@ -284,13 +285,13 @@ private:
       return !vanishes && dot(cross(before[1] - before[0], before[2] - before[0]),
                             cross(after[1] - after[0], after[2] - after[0])) < 0.0;
     };
-    for (;;)
+    for (bool isAny = false;; isAny = true)
     {
       const std::vector<std::size_t> turned =
         itemsThat(this->Exec, mesh.triangles().size(), isTurned);
       if (turned.empty())
       {
-        return;
+        return isAny;
       }
       for (const std::size_t triangle : turned)
       {

@@ -71,14 +71,16 @@ private:
 class VertexContraction
 {
 public:
-  VertexContraction(const Execution& execution, const SurfaceMesh& mesh, const VertexParts& parts)
+  VertexContraction(const Execution& execution, const SurfaceMesh& mesh, const VertexParts& parts,
+    std::vector<char> areWanted)
     : Exec(execution)
     , Mesh(mesh)
     , Parts(parts)
-    , AreMerged(parts.size())
+    , AreMerged(std::move(areWanted))
   {
     forEachIndex(execution, parts.size(),
-      [this](std::size_t part) { this->AreMerged[part] = this->isSimple(part) ? 1 : 0; });
+      [this](std::size_t part)
+      { this->AreMerged[part] = this->AreMerged[part] && this->isSimple(part) ? 1 : 0; });
   }
 
   std::vector<char> contract()
@@ -296,10 +298,10 @@ VertexParts partsOfGroups(const Execution& execution, const SurfaceMesh& mesh,
   return result;
 }
 
-std::vector<char> contractibleParts(
-  const Execution& execution, const SurfaceMesh& mesh, const VertexParts& parts)
+std::vector<char> contractibleParts(const Execution& execution, const SurfaceMesh& mesh,
+  const VertexParts& parts, std::vector<char> areWanted)
 {
-  return VertexContraction(execution, mesh, parts).contract();
+  return VertexContraction(execution, mesh, parts, std::move(areWanted)).contract();
 }
 
 } // namespace isopoint

@@ -53,10 +53,11 @@ VertexParts partsOfGroups(const Execution& execution, const SurfaceMesh& mesh,
 /// Which parts can each become one vertex, all at once, without a change of topology:
 /// docs/triangles.md, "Regularization".
 /// @param parts the triangles around their vertices form a (half) disk
+/// @param areWanted the parts that may become one vertex
 /// @returns for each part whether it can
 /// @throws std::bad_alloc, Aborted
 /// Complexity: O(n log n), mostly
-std::vector<char> contractibleParts(
-  const Execution& execution, const SurfaceMesh& mesh, const VertexParts& parts);
+std::vector<char> contractibleParts(const Execution& execution, const SurfaceMesh& mesh,
+  const VertexParts& parts, std::vector<char> areWanted);
 
 } // namespace isopoint
