@@ -28,8 +28,7 @@ Region boxOfSamples(const SampleTree<TSample>& tree, const Node<TSample>& node)
 }
 
 /// The bounding boxes of the samples of split nodes, which can be far smaller than their regions.
-/// Memory: a box per split node once compute() has run. The tree must not change
-/// meanwhile, except that a partial tree may be split further.
+/// Memory: a box per split node once compute() has run. The tree may only be split further.
 template <class TSample>
 class SampleBounds
 {
@@ -68,10 +67,10 @@ public:
       return offsetsToBox(from, position, position);
     }
     const auto pair = static_cast<std::size_t>(node.childPair);
-    const Region box = this->Tree.isPartial
-                         ? this->BoxesOnDemand.at(pair,
-                             [&]() { return this->boxOf(node, [](std::size_t, const Region&) {}); })
-                         : this->Boxes[pair];
+    const Region box = pair < this->Boxes.size()
+                         ? this->Boxes[pair]
+                         : this->BoxesOnDemand.at(pair, [&]()
+                             { return this->boxOf(node, [](std::size_t, const Region&) {}); });
     return offsetsToBox(from, box.lower, box.upper);
   }
 
@@ -99,7 +98,7 @@ private:
 
   const SampleTree<TSample>& Tree;
   RawArray<Region> Boxes;                       // by pair of children
-  mutable ConcurrentMemo<Region> BoxesOnDemand; // likewise, of a partial tree
+  mutable ConcurrentMemo<Region> BoxesOnDemand; // likewise, of other pairs
   std::once_flag Computed;
 };
 

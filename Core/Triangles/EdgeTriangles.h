@@ -41,43 +41,6 @@ struct EdgeTriangles
       [&](std::size_t vertex) { first[vertex] = this->edges[this->edgeBegin(vertex)]; });
     return first;
   }
-
-  /// By vertex, whether it is one of a cap.
-  std::vector<char> areOfCaps(const Execution& execution) const
-  {
-    std::vector<char> marks(this->positions.size(), 0);
-    forEachInOrder(execution, this->caps.size(),
-      [&](std::size_t i)
-      {
-        for (const std::size_t vertex : this->caps[i])
-        {
-          marks[vertex] = 1;
-        }
-      });
-    return marks;
-  }
-
-  /// The triangles of the isosurface.
-  std::vector<SurfaceTriangle> withoutCaps(const Execution& execution) const
-  {
-    std::vector<SurfaceTriangle> others = this->triangles;
-    dropMarked(execution, this->areCaps(execution), others);
-    return others;
-  }
-
-  /// By triangle, whether it is one of a cap.
-  std::vector<char> areCaps(const Execution& execution) const
-  {
-    std::vector<char> marks(this->triangles.size(), 0);
-    forEachIndex(execution, marks.size(),
-      [&](std::size_t i)
-      {
-        const bool isCap =
-          std::binary_search(this->caps.begin(), this->caps.end(), this->triangles[i]);
-        marks[i] = isCap ? 1 : 0;
-      });
-    return marks;
-  }
 };
 
 /// Triangles whose vertices have one edge each, sorted by the edges' ends in the tree.
@@ -89,27 +52,26 @@ struct MarchedTriangles : EdgeTriangles<TSample>
   std::size_t endCount = 0; // exceeds all of these numbers
 };
 
-/// See mergeVertices(). Vertices of caps stay. @throws std::bad_alloc, Aborted
+/// See mergeVertices(). Vertices at samples stay. @throws std::bad_alloc, Aborted
 template <class TSample>
 EdgeTriangles<TSample> withMergedVertices(const Execution& execution,
   MarchedTriangles<TSample> marched, std::vector<char> areKept, bool keepsRim)
 {
-  const bool hasCaps = !marched.caps.empty();
-  MergedTriangles merged = mergeVertices(execution, marched.positions, marched.nearerEnds,
-    marched.endCount, std::move(marched.triangles),
-    hasCaps ? marched.areOfCaps(execution) : std::move(areKept), keepsRim || hasCaps);
-  EdgeTriangles<TSample> result;
-  if (hasCaps)
+  if (!marched.caps.empty())
   {
-    std::vector<std::size_t> firsts(merged.size()); // members, the only ones of vertices that stay
-    forEachIndex(execution, firsts.size(),
-      [&](std::size_t vertex) { firsts[vertex] = merged.members[merged.memberBegins[vertex]]; });
-    result.caps = renumbered(execution, marched.caps, firsts, marched.positions.size());
+    areKept.resize(marched.edges.size());
+    forEachIndex(execution, areKept.size(),
+      [&](std::size_t vertex) { areKept[vertex] = marched.edges[vertex].isSample() ? 1 : 0; });
   }
+  MergedTriangles merged = mergeVertices(
+    execution, { marched.positions, std::move(marched.triangles), std::move(marched.caps),
+                 std::move(marched.nearerEnds), marched.endCount, std::move(areKept), keepsRim });
+  EdgeTriangles<TSample> result;
   result.edges = chosenOf(execution, marched.edges, merged.members);
   result.edgeBegins = std::move(merged.memberBegins);
   result.positions = std::move(merged.positions);
   result.triangles = std::move(merged.triangles);
+  result.caps = std::move(merged.caps);
   return result;
 }
 

@@ -238,8 +238,9 @@ private:
     if (isMoved && !mesh.caps.empty())
     {
       this->keepRimOnEdges(mesh, fits);
-      keepTrianglesUpright(
-        partOf(execution, 0.0, 0.5), mesh.positions, mesh.withoutCaps(this->Exec), fits);
+      std::vector<SurfaceTriangle> others = mesh.triangles;
+      dropMarked(this->Exec, areAmong(this->Exec, mesh.triangles, mesh.caps), others);
+      keepTrianglesUpright(partOf(execution, 0.0, 0.5), mesh.positions, others, fits);
     }
     else if (isMoved)
     {
@@ -257,7 +258,7 @@ private:
       { mesh.edges, mesh.edgeBegins, mesh.positions }, std::move(fits), isMoved);
     if (this->Request.caps)
     {
-      surface.areCaps = mesh.areCaps(this->Exec);
+      surface.areCaps = areAmong(this->Exec, mesh.triangles, mesh.caps);
     }
     surface.triangles = std::move(mesh.triangles);
     if (isMoved && this->hasCreases())
@@ -273,7 +274,7 @@ private:
   /// stay where they are: to the tangent plane of the fit.
   void keepRimOnEdges(const EdgeTriangles<TSample>& mesh, std::vector<LocalFit>& fits) const
   {
-    const std::vector<char> areOfCaps = mesh.areOfCaps(this->Exec);
+    const std::vector<char> areOfCaps = areVerticesOf(this->Exec, mesh.caps, fits.size());
     forEachIndex(this->Exec, fits.size(),
       [&](std::size_t vertex)
       {
@@ -303,7 +304,7 @@ private:
       [&](std::size_t vertex) { positions[vertex] = fits[vertex].position; });
     const std::vector<char> areKept = this->hasCreases()
                                         ? areAtCreases(this->Exec, fits, mesh.triangles)
-                                        : mesh.areOfCaps(this->Exec);
+                                        : areVerticesOf(this->Exec, mesh.caps, positions.size());
     flipEdges(this->Exec, positions, areKept, mesh.triangles);
   }
 

@@ -39,6 +39,31 @@ std::vector<SurfaceTriangle> ordered(
     [](const SurfaceTriangle& triangle) { return static_cast<std::uint64_t>(triangle[0]); });
 }
 
+std::vector<char> areVerticesOf(const Execution& execution,
+  const std::vector<SurfaceTriangle>& triangles, std::size_t vertexCount)
+{
+  std::vector<char> marks(vertexCount, 0);
+  forEachInOrder(execution, triangles.size(),
+    [&](std::size_t i)
+    {
+      for (const std::size_t vertex : triangles[i])
+      {
+        marks[vertex] = 1;
+      }
+    });
+  return marks;
+}
+
+std::vector<char> areAmong(const Execution& execution,
+  const std::vector<SurfaceTriangle>& triangles, const std::vector<SurfaceTriangle>& some)
+{
+  std::vector<char> marks(triangles.size(), 0);
+  forEachIndex(execution, marks.size(),
+    [&](std::size_t i)
+    { marks[i] = std::binary_search(some.begin(), some.end(), triangles[i]) ? 1 : 0; });
+  return marks;
+}
+
 std::vector<SurfaceTriangle> renumbered(const Execution& execution,
   const std::vector<SurfaceTriangle>& triangles, const std::vector<std::size_t>& order,
   std::size_t vertexCount)

@@ -19,6 +19,16 @@ using SurfaceTriangle = std::array<std::size_t, 3>;
 std::vector<std::size_t> verticesOf(const Execution& execution,
   const std::vector<SurfaceTriangle>& triangles, std::size_t vertexCount);
 
+/// By vertex, whether it is one of the triangles. @throws std::bad_alloc, Aborted
+/// @param vertexCount exceeds every vertex
+std::vector<char> areVerticesOf(const Execution& execution,
+  const std::vector<SurfaceTriangle>& triangles, std::size_t vertexCount);
+
+/// By triangle, whether it is one of some. O(n log n) @throws std::bad_alloc, Aborted
+/// @param some ordered()
+std::vector<char> areAmong(const Execution& execution,
+  const std::vector<SurfaceTriangle>& triangles, const std::vector<SurfaceTriangle>& some);
+
 /// The distinct triangles, each starting at its lowest vertex, ordered.
 /// @param vertexCount exceeds every vertex
 /// @throws std::bad_alloc, Aborted

@@ -3,6 +3,7 @@
 
 #include "Core/Base/Lists.h"
 #include "Core/Extraction/Isosurface.h"
+#include "Core/Triangles/CapRim.h"
 #include "Core/Triangles/EdgeFlipping.h"
 #include "Core/Triangles/ShortEdges.h"
 #include "Core/Triangles/SurfaceMesh.h"
@@ -25,22 +26,29 @@ class PartPlaces
 public:
   /// @param positions of the vertices
   /// @param memberBegins by vertex, offsets of the crossings that it is the mean of
-  PartPlaces(const SurfaceMesh& mesh, const VertexParts& parts,
+  PartPlaces(const SurfaceMesh& mesh, const CapRim& rim, const VertexParts& parts,
     const std::vector<Vector>& positions, const std::vector<std::size_t>& memberBegins)
     : Mesh(mesh)
+    , Rim(rim)
     , Parts(parts)
     , Positions(positions)
     , MemberBegins(memberBegins)
   {
   }
 
-  /// The vertices that determine the place of a part, ascending: its border corner, else its border
-  /// vertices, else all.
+  /// The vertices that determine the place of a part, ascending: one at the rim of caps, or its
+  /// border corner, else its border vertices, else all.
   /// @param memory overwritten; may hold them
   IndexSpan<std::size_t> membersOf(std::size_t part, std::vector<std::size_t>& memory) const
   {
     const IndexSpan<std::size_t> vertices = this->Parts.verticesOf(part);
     memory.clear();
+    const std::size_t atRim = this->Rim.placeOf(this->Parts, part);
+    if (atRim != VertexParts::none)
+    {
+      memory.assign(1, atRim);
+      return { memory.data(), memory.size() };
+    }
     std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(memory),
       [this](std::size_t vertex) { return this->Mesh.isOpen(vertex); });
     if (memory.empty())
@@ -139,6 +147,7 @@ private:
   }
 
   const SurfaceMesh& Mesh;
+  const CapRim& Rim;
   const VertexParts& Parts;
   const std::vector<Vector>& Positions;
   const std::vector<std::size_t>& MemberBegins;
@@ -147,28 +156,34 @@ private:
 class VertexMerger
 {
 public:
-  VertexMerger(const Execution& execution, const std::vector<Vector>& crossings,
-    std::vector<SurfaceTriangle> triangles, std::vector<char> areKept, bool keepsRim)
+  VertexMerger(const Execution& execution, MergeableTriangles triangles)
     : Exec(execution)
-    , Crossings(crossings)
-    , KeepsRim(keepsRim)
-    , AreKept(std::move(areKept))
+    , Crossings(triangles.crossings)
+    , KeepsRim(triangles.keepsRim)
+    , HasCaps(!triangles.caps.empty())
+    , NearerEnds(std::move(triangles.nearerEnds))
+    , EndCount(triangles.endCount)
+    , AreKept(std::move(triangles.areKept))
   {
-    this->AreKept.resize(crossings.size(), 0);
-    this->Result.triangles = std::move(triangles);
-    this->Result.members.resize(crossings.size());
+    const std::size_t count = this->Crossings.size();
+    this->AreKept.resize(count, 0);
+    this->Result.triangles = std::move(triangles.triangles);
+    this->Result.caps = std::move(triangles.caps);
+    this->Result.members.resize(count);
     std::iota(this->Result.members.begin(), this->Result.members.end(), std::size_t{ 0 });
-    this->Result.memberBegins.resize(crossings.size() + 1);
+    this->Result.memberBegins.resize(count + 1);
     std::iota(this->Result.memberBegins.begin(), this->Result.memberBegins.end(), std::size_t{ 0 });
   }
 
-  MergedTriangles merge(std::vector<std::size_t> nearerEnds, std::size_t endCount)
+  MergedTriangles merge()
   {
-    this->mergeAtEnds(std::move(nearerEnds), endCount);
+    this->mergeAtEnds();
     this->Exec.progress(0.7);
     for (int round = 0; round < shortEdgeRounds; ++round)
     {
-      flipEdges(this->Exec, this->Result.positions, this->AreKept, this->Result.triangles);
+      flipEdges(this->Exec, this->Result.positions,
+        this->HasCaps ? areVerticesOf(this->Exec, this->Result.caps, this->count()) : this->AreKept,
+        this->Result.triangles);
       const SurfaceMesh mesh = this->takeMesh();
       this->contract(mesh, this->pairsOfShortEdges(mesh), this->Result.positions);
     }
@@ -188,7 +203,7 @@ private:
 
   /// Keeps branched vertices, and perhaps the rim, from now on, and merges the others at each
   /// sample.
-  void mergeAtEnds(std::vector<std::size_t> nearerEnds, std::size_t endCount)
+  void mergeAtEnds()
   {
     const SurfaceMesh mesh = this->takeMesh();
     forEachIndex(this->Exec, this->count(),
@@ -202,10 +217,11 @@ private:
         }
       });
     const std::vector<std::size_t> kept = markedOf(this->Exec, this->AreKept);
-    forEachIndex(
-      this->Exec, kept.size(), [&](std::size_t i) { nearerEnds[kept[i]] = endCount + i; }); // alone
+    std::vector<std::size_t> groups = std::move(this->NearerEnds);
+    forEachIndex(this->Exec, kept.size(),
+      [&](std::size_t i) { groups[kept[i]] = this->EndCount + i; }); // alone
     this->contract(
-      mesh, partsOfGroups(this->Exec, mesh, nearerEnds, endCount + kept.size()), this->Crossings);
+      mesh, partsOfGroups(this->Exec, mesh, groups, this->EndCount + kept.size()), this->Crossings);
   }
 
   /// Merges the vertices of each part if possible, and renumbers.
@@ -213,12 +229,16 @@ private:
   void contract(
     const SurfaceMesh& mesh, const VertexParts& parts, const std::vector<Vector>& former)
   {
-    const PartPlaces places(mesh, parts, former, this->Result.memberBegins);
-    std::vector<char> areMerged(parts.size(), 1);
+    const CapRim rim(this->Exec, mesh, this->Result.caps, former);
+    const PartPlaces places(mesh, rim, parts, former, this->Result.memberBegins);
+    std::vector<char> areMerged(parts.size());
+    forEachIndex(this->Exec, parts.size(),
+      [&](std::size_t part) { areMerged[part] = rim.isPath(parts, part) ? 1 : 0; });
     do
     {
       areMerged = contractibleParts(this->Exec, mesh, parts, std::move(areMerged));
-    } while (this->KeepsRim && this->separateTurned(mesh, parts, places, former, areMerged));
+    } while ((this->KeepsRim || this->HasCaps) &&
+             this->separateTurned(mesh, parts, places, former, areMerged));
     const auto isMerged = [&](std::size_t vertex)
     { return parts.partOf[vertex] != VertexParts::none && areMerged[parts.partOf[vertex]]; };
     // The lowest vertex of each merged part, and all others.
@@ -243,6 +263,7 @@ private:
         }
       });
     this->Result.triangles = this->renumberedTriangles(mesh.triangles(), number, roots.size());
+    this->Result.caps = this->renumberedTriangles(this->Result.caps, number, roots.size());
     this->AreKept = chosenOf(this->Exec, this->AreKept, roots);
     std::vector<Vector> positions(roots.size());
     forEachIndex(this->Exec, roots.size(),
@@ -418,18 +439,18 @@ private:
   const Execution& Exec;
   const std::vector<Vector>& Crossings;
   const bool KeepsRim;
+  const bool HasCaps;
+  std::vector<std::size_t> NearerEnds; // until they are merged
+  const std::size_t EndCount;
   std::vector<char> AreKept; // each of these
   MergedTriangles Result;    // of these vertices
 };
 
 } // namespace
 
-MergedTriangles mergeVertices(const Execution& execution, const std::vector<Vector>& crossings,
-  const std::vector<std::size_t>& nearerEnds, std::size_t endCount,
-  std::vector<SurfaceTriangle> triangles, std::vector<char> areKept, bool keepsRim)
+MergedTriangles mergeVertices(const Execution& execution, MergeableTriangles triangles)
 {
-  return VertexMerger(execution, crossings, std::move(triangles), std::move(areKept), keepsRim)
-    .merge(nearerEnds, endCount);
+  return VertexMerger(execution, std::move(triangles)).merge();
 }
 
 } // namespace isopoint

@@ -11,11 +11,24 @@
 namespace isopoint
 {
 
+/// Triangles whose vertices may be merged.
+struct MergeableTriangles
+{
+  const std::vector<Vector>& crossings;   // positions of the vertices
+  std::vector<SurfaceTriangle> triangles; // ordered
+  std::vector<SurfaceTriangle> caps;   // those of caps, if the surface is closed by them; ordered
+  std::vector<std::size_t> nearerEnds; // the number of the nearer sample on each vertex' edge
+  std::size_t endCount = 0;            // exceeds all of these numbers
+  std::vector<char> areKept = {};      // vertices that stay; empty for none
+  bool keepsRim = false;               // whether vertices of edges with one triangle stay, too
+};
+
 /// Triangles between means of crossings.
 struct MergedTriangles
 {
   std::vector<Vector> positions;
   std::vector<SurfaceTriangle> triangles; // ordered
+  std::vector<SurfaceTriangle> caps;      // those of caps; ordered
   /// The crossings whose mean each vertex is, nearest first, one list after the other.
   std::vector<std::size_t> members;
   std::vector<std::size_t> memberBegins; // by vertex, with an end
@@ -26,15 +39,8 @@ struct MergedTriangles
 /// Merges crossings to about one vertex per sample next to the surface ([TPG99]), and then short
 /// edges, if the topology allows: docs/triangles.md, "Regularization". The result depends only on
 /// the order of vertices and triangles. O(n log n)
-/// @param crossings positions of the vertices
-/// @param nearerEnds the number of the nearer sample on the edge of each crossing
-/// @param endCount exceeds all of these numbers
-/// @param triangles ordered
-/// @param areKept vertices that stay, as do triangles between three of them; empty for none
-/// @param keepsRim whether vertices of edges with one triangle stay, too
+/// Triangles between three kept vertices stay, and the shape of caps: see CapRim.
 /// @throws std::bad_alloc, Aborted
-MergedTriangles mergeVertices(const Execution& execution, const std::vector<Vector>& crossings,
-  const std::vector<std::size_t>& nearerEnds, std::size_t endCount,
-  std::vector<SurfaceTriangle> triangles, std::vector<char> areKept = {}, bool keepsRim = false);
+MergedTriangles mergeVertices(const Execution& execution, MergeableTriangles triangles);
 
 } // namespace isopoint

@@ -295,7 +295,10 @@ TEST(Regularization, EveryStepAsksForAborts)
   std::vector<std::size_t> groups(positions.size());
   std::transform(positions.begin(), positions.end(), groups.begin(),
     [](const Vector& p) { return static_cast<std::size_t>(p[0] / 3.0); });
-  EXPECT_GE(questionsOf([&]() { mergeVertices(execution, positions, groups, side, triangles); }),
+  EXPECT_GE(questionsOf(
+              [&]() {
+                mergeVertices(execution, { positions, triangles, {}, groups, side });
+              }),
     40 * onePass);
 }
 
@@ -366,7 +369,7 @@ TEST(Regularization, ATetrahedronStays)
 {
   const std::vector<Vector> positions{ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
   const Triangles triangles{ { 0, 1, 3 }, { 0, 2, 1 }, { 0, 3, 2 }, { 1, 2, 3 } };
-  const MergedTriangles merged = mergeVertices({}, positions, { 0, 0, 1, 2 }, 3, triangles);
+  const MergedTriangles merged = mergeVertices({}, { positions, triangles, {}, { 0, 0, 1, 2 }, 3 });
   EXPECT_EQ(merged.positions, positions);
   EXPECT_EQ(merged.triangles, triangles);
 }
@@ -375,8 +378,8 @@ TEST(Regularization, ATetrahedronStays)
 TEST(Regularization, ARingStays)
 {
   const Bipyramid whole;
-  const MergedTriangles merged =
-    mergeVertices({}, whole.positions, { 0, 1, 2, 2, 2, 2, 2, 2, 2, 2, 2 }, 3, whole.triangles);
+  const MergedTriangles merged = mergeVertices(
+    {}, { whole.positions, whole.triangles, {}, { 0, 1, 2, 2, 2, 2, 2, 2, 2, 2, 2 }, 3 });
   const Topology sphere{ 2, 1, 0, true };
   EXPECT_EQ(topologyOf(whole.triangles), sphere);
   EXPECT_EQ(topologyOf(merged.triangles), sphere);
@@ -386,8 +389,10 @@ TEST(Regularization, NeighborsBecomeOneVertexAtTheirMean)
 {
   Bipyramid whole;
   std::vector<Vector>& positions = whole.positions;
-  const auto merge = [&]() {
-    return mergeVertices({}, positions, { 0, 1, 2, 2, 2, 3, 3, 3, 4, 4, 4 }, 5, whole.triangles);
+  const auto merge = [&]()
+  {
+    return mergeVertices(
+      {}, { positions, whole.triangles, {}, { 0, 1, 2, 2, 2, 3, 3, 3, 4, 4, 4 }, 5 });
   };
   const MergedTriangles merged = merge();
   ASSERT_EQ(merged.positions.size(), 5u);
