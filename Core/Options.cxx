@@ -113,6 +113,7 @@ Options effectiveOptions(const Options& options)
     effective.regularize = defaults.regularize;
     effective.keepHullSlivers = defaults.keepHullSlivers;
     effective.capping = defaults.capping;
+    effective.minimumPieceSize = defaults.minimumPieceSize;
   }
   return effective;
 }
@@ -127,6 +128,7 @@ ExtractionRequest requestOf(const Options& options)
   request.isosurface.regularizes = options.regularize;
   request.isosurface.keepsHullSlivers = options.keepHullSlivers;
   request.isosurface.caps = options.capping;
+  request.isosurface.minimumPieceSize = options.minimumPieceSize;
   request.minimumSpacing = options.minimumSpacing;
   request.triangles = options.triangles;
   if (needsSplats(options))

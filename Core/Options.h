@@ -45,9 +45,10 @@ struct Options
   bool computeSplats = true;
 
   // Only for triangles:
-  bool regularize = true;       // see IsosurfaceRequest::regularizes
-  bool keepHullSlivers = false; // see IsosurfaceRequest::keepsHullSlivers
-  bool capping = false;         // see IsosurfaceRequest::caps
+  bool regularize = true;        // see IsosurfaceRequest::regularizes
+  bool keepHullSlivers = false;  // see IsosurfaceRequest::keepsHullSlivers
+  bool capping = false;          // see IsosurfaceRequest::caps
+  double minimumPieceSize = 0.0; // see IsosurfaceRequest::minimumPieceSize
 
   /// See IsosurfaceRequest::keepsTetrahedra.
   bool keepTetrahedra = true;
@@ -92,6 +93,8 @@ inline constexpr Option<bool> regularize{ "Regularize", &Options::regularize, fa
 inline constexpr Option<bool> keepHullSlivers{ "KeepHullSlivers", &Options::keepHullSlivers, false,
   true };
 inline constexpr Option<bool> capping{ "Capping", &Options::capping, false, true };
+inline constexpr Option<double> minimumPieceSize{ "MinimumPieceSize", &Options::minimumPieceSize,
+  0.0, 1.0 };
 
 } // namespace option
 
@@ -111,6 +114,7 @@ void forEachOption(const Options& options, const Visitor& visit)
     visit(option::regularize);
     visit(option::keepHullSlivers);
     visit(option::capping);
+    visit(option::minimumPieceSize);
   }
   else
   {

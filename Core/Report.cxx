@@ -335,7 +335,8 @@ void Report::countSurface(std::size_t isovalue, const ExtractedIsosurface& surfa
   const std::vector<LocalFit>& fits = surface.surface.fits;
   for (std::size_t i = 0; i < fits.size(); ++i)
   {
-    this->unprojectedPoints += isHere(i) && !fits[i].order ? 1 : 0;
+    const bool isAtSample = surface.surface.edgeOf(i).isSample(); // of a cap
+    this->unprojectedPoints += isHere(i) && !fits[i].order && !isAtSample ? 1 : 0;
   }
 }
 

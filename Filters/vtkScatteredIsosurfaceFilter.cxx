@@ -17,3 +17,5 @@ vtkIsopointOptionMacro(
   vtkScatteredIsosurfaceFilter, Regularize, vtkTypeBool, isopoint::option::regularize);
 vtkIsopointOptionMacro(
   vtkScatteredIsosurfaceFilter, Capping, vtkTypeBool, isopoint::option::capping);
+vtkIsopointOptionMacro(
+  vtkScatteredIsosurfaceFilter, MinimumPieceSize, double, isopoint::option::minimumPieceSize);

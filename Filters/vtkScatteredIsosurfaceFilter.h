@@ -87,12 +87,22 @@ public:
    * where the samples end, with outward normals, and 2-manifold. The body is the union of the
    * tetrahedra that are not in gaps, as docs/triangles.md defines them for bodies; with
    * DropGapsOff() it is the convex hull. Vertices of caps at samples have the arrays of the sample.
-   * The cell array IsCap is 1 in caps. Requires RegularizeOff() and the projection NO_PROJECTION.
-   * Default: off.
+   * The cell array IsCap is 1 in caps. An isovalue of minus infinity gives the body of all samples.
+   * Not with the projection CREASE_FIT, ComputeGradientsOn() or NORMALS_FROM_FIELD. Default: off.
    */
   virtual void SetCapping(vtkTypeBool capping);
   virtual vtkTypeBool GetCapping();
   vtkBooleanMacro(Capping, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * The least area of a connected piece, as a share of the area of the isovalue's largest piece.
+   * Smaller pieces, such as droplets, are left out, but never bubbles: closed pieces with a
+   * negative volume. From 0, for none, to 1. Default: 0.
+   */
+  virtual void SetMinimumPieceSize(double share);
+  virtual double GetMinimumPieceSize();
   ///@}
 
 protected:

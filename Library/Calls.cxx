@@ -150,6 +150,7 @@ void forEachMember(const Visitor& visit)
   visit(&C::regularize, &Core::regularize);
   visit(&C::keep_hull_slivers, &Core::keepHullSlivers);
   visit(&C::capping, &Core::capping);
+  visit(&C::minimum_piece_size, &Core::minimumPieceSize);
 }
 
 /// @param given null for the defaults, or options of this version

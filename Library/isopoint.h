@@ -156,8 +156,11 @@ typedef struct isopoint_options
    * that of the body. */
   int32_t keep_hull_slivers; /* Default: 0 */
   /* Triangles only: whether the surface is that of the body of the samples at or above the isovalue,
-   * closed by caps where the samples end. Requires regularize 0 and projection NONE. */
+   * closed by caps where the samples end. Not with projection CREASE. */
   int32_t capping; /* Default: 0 */
+  /* Triangles only: pieces with less than this share of the area of an isovalue's largest piece are
+   * left out, such as droplets, but never bubbles: closed pieces with a negative volume. From 0 to 1. */
+  double minimum_piece_size; /* Default: 0 */
 } isopoint_options;
 
 /* Sets all options to their defaults. @param size sizeof(isopoint_options) */

@@ -116,8 +116,9 @@ EdgeTriangles<TSample> inOrder(const Execution& execution, const EdgeTriangles<T
   result.edgeBegins = chosenLists(execution, triangles.edgeBegins, order, edges);
   result.edges = chosenOf(execution, triangles.edges, triangles.edgeBegins.empty() ? order : edges);
   result.positions = chosenOf(execution, triangles.positions, order);
-  result.triangles = renumbered(execution, triangles.triangles, order, order.size());
-  result.caps = renumbered(execution, triangles.caps, order, order.size());
+  const std::size_t count = triangles.positions.size();
+  result.triangles = renumbered(execution, triangles.triangles, order, count);
+  result.caps = renumbered(execution, triangles.caps, order, count);
   return result;
 }
 

@@ -17,6 +17,7 @@
 #include "Core/Triangles/EdgeTriangles.h"
 #include "Core/Triangles/GapTetrahedra.h"
 #include "Core/Triangles/MarchingTetrahedra.h"
+#include "Core/Triangles/SurfacePieces.h"
 #include "Core/Triangles/TriangleGeometry.h"
 
 #include <algorithm>
@@ -246,11 +247,20 @@ private:
     {
       keepTrianglesUpright(partOf(execution, 0.0, 0.5), mesh.positions, mesh.triangles, fits);
     }
+    const std::vector<Vector> positions = this->positionsOf(mesh, fits);
     if (this->Request.regularizes)
     {
-      this->flipEdgesOf(mesh, fits);
+      this->flipEdgesOf(mesh, positions, fits);
     }
-    const std::vector<std::size_t> order = orderOfEdges(this->Exec, mesh);
+    std::vector<std::size_t> order = orderOfEdges(this->Exec, mesh);
+    if (this->Request.minimumPieceSize > 0.0 && !mesh.triangles.empty())
+    {
+      this->dropSmallPieces(mesh, positions);
+      const std::vector<char> areUsed = areVerticesOf(this->Exec, mesh.triangles, positions.size());
+      order.erase(std::remove_if(order.begin(), order.end(),
+                    [&](std::size_t vertex) { return areUsed[vertex] == 0; }),
+        order.end());
+    }
     mesh = inOrder(this->Exec, mesh, order);
     fits = chosenOf(this->Exec, fits, order);
     TriangleSurface surface;
@@ -297,11 +307,30 @@ private:
       });
   }
 
-  void flipEdgesOf(EdgeTriangles<TSample>& mesh, const std::vector<LocalFit>& fits) const
+  std::vector<Vector> positionsOf(
+    const EdgeTriangles<TSample>& mesh, const std::vector<LocalFit>& fits) const
   {
     std::vector<Vector> positions = mesh.positions;
     forEachIndex(this->Exec, fits.size(),
       [&](std::size_t vertex) { positions[vertex] = fits[vertex].position; });
+    return positions;
+  }
+
+  /// Leaves vertices without triangles.
+  void dropSmallPieces(EdgeTriangles<TSample>& mesh, const std::vector<Vector>& positions) const
+  {
+    const std::vector<char> areSmall =
+      areOfSmallPieces(this->Exec, positions, mesh.triangles, this->Request.minimumPieceSize);
+    const std::vector<char> areCaps = areAmong(this->Exec, mesh.triangles, mesh.caps);
+    mesh.caps = chosenOf(this->Exec, mesh.triangles,
+      itemsThat(this->Exec, areCaps.size(),
+        [&](std::size_t i) { return areCaps[i] != 0 && areSmall[i] == 0; }));
+    dropMarked(this->Exec, areSmall, mesh.triangles);
+  }
+
+  void flipEdgesOf(EdgeTriangles<TSample>& mesh, const std::vector<Vector>& positions,
+    const std::vector<LocalFit>& fits) const
+  {
     const std::vector<char> areKept = this->hasCreases()
                                         ? areAtCreases(this->Exec, fits, mesh.triangles)
                                         : areVerticesOf(this->Exec, mesh.caps, positions.size());

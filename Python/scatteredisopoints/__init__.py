@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Isosurfaces directly from scattered samples.
 
-contour() takes and returns NumPy arrays, or data sets of VTK and PyVista; slice_samples() gives slices, and
-probe() and gradient() interpolate samples at places; Samples keeps the tree between calls. All only need NumPy.
+contour() takes and returns NumPy arrays, or data sets of VTK and PyVista; body() gives the closed surface of all
+samples, slice_samples() gives slices, and probe() and gradient() interpolate samples at places; Samples keeps the tree
+between calls. All only need NumPy.
 With the project's VTK modules, the package also has their classes; with its ParaView plugin, load_plugin() and
 ray_trace().
 """
@@ -18,7 +19,9 @@ from . import _library
 # Type checkers take only names imported as themselves for exported.
 from ._interpolator import Interpolator as Interpolator
 from ._isosurface import Isosurface as Isosurface
+from ._measures import Piece as Piece
 from ._samples import Samples as Samples
+from .contouring import body as body
 from .contouring import contour as contour
 from .plugin import load_plugin as load_plugin
 from .probing import gradient as gradient
@@ -56,8 +59,8 @@ if TYPE_CHECKING:
 else:
     def __getattr__(name):
         if name == "__all__":
-            return ["Interpolator", "Isosurface", "Samples", "contour", "gradient", "load_plugin", "probe",
-                    "slice_samples", *_found()]
+            return ["Interpolator", "Isosurface", "Piece", "Samples", "body", "contour", "gradient", "load_plugin",
+                    "probe", "slice_samples", *_found()]
         if name not in _MODULES:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
         for module in map(_module, _MODULES[name]):

@@ -73,7 +73,8 @@ def _isosurface(data: vtkPolyData, are_triangles: bool) -> Isosurface:
     scalars = data.GetPointData().GetScalars()
     maker = PolyDataMaker("vtkmodules", is_of_pyvista(data), scalars and scalars.GetName())
     caps = {name: of_cells.pop(name) for name in ("IsCap",) if name in of_cells}
-    return Isosurface(as_numpy(point_positions(data)), triangles, of_points, of_cells, maker, data, cell_arrays=caps)
+    return Isosurface(as_numpy(point_positions(data)), triangles, of_points, of_cells, maker, data, cell_arrays=caps,
+                      isovalues=None if scalars is None else as_numpy(scalars))
 
 
 def _cloud(positions: Any, values: Any, arrays: Optional[Mapping[str, Any]]) -> vtkPolyData:

@@ -3,13 +3,15 @@
 
 from __future__ import annotations
 
+import warnings
 from ctypes import byref, c_void_p
-from typing import Any, Callable, Mapping, Optional
+from typing import Any, Callable, Mapping, Optional, Union
 
 import numpy as np
 
 from . import _library
 from ._arrays import column, readable
+from ._measures import Measures, Piece, measure
 from ._options import number_of, thread_count
 from ._progress import Progress, shown_progress
 
@@ -43,6 +45,7 @@ class Isosurface:
         polydata: Any = None,
         threads: Optional[int] = None,
         cell_arrays: Optional[Mapping[str, np.ndarray]] = None,
+        isovalues: Optional[np.ndarray] = None,
     ):
         self.points = points
         self.triangles = triangles
@@ -52,6 +55,8 @@ class Isosurface:
         self._make_polydata = make_polydata
         self._polydata = polydata
         self._threads = threads
+        self._isovalues = isovalues  # of points
+        self._measures: Optional[Measures] = None
 
     def __getstate__(self) -> dict[str, Any]:
         return {**vars(self), "_polydata": None}  # VTK's objects cannot be pickled
@@ -81,6 +86,47 @@ class Isosurface:
         if self._polydata is None:
             self._polydata = self._make_polydata(self)
         return self._polydata
+
+    @property
+    def pieces(self) -> list[Piece]:
+        """The connected pieces of triangles, largest area first: isovalue, area, and volume, which is negative for
+        bubbles and NaN for open pieces. Raises ValueError for points."""
+        return self._measured().pieces
+
+    @property
+    def region_ids(self) -> np.ndarray:
+        """The index in :attr:`pieces` of each triangle's piece, shape (m,): for an array RegionId, as VTK calls it."""
+        return self._measured().region_ids
+
+    @property
+    def area(self) -> Union[float, np.ndarray]:
+        """The area, in the square of the unit of positions; of several isovalues with triangles, the area of each,
+        ascending by isovalue."""
+        return self._sums([piece.area for piece in self.pieces])
+
+    @property
+    def volume(self) -> Union[float, np.ndarray]:
+        """The volume within closed triangles, in the cube of the unit of positions, as :attr:`area`; bubbles are
+        subtracted. NaN, with a warning, if a piece is open."""
+        volumes = self._sums([piece.volume for piece in self.pieces])
+        if np.isnan(volumes).any():
+            warnings.warn("The surface is open, so it has no volume: extract it with capping=True.", RuntimeWarning,
+                          stacklevel=2)
+        return volumes
+
+    def _measured(self) -> Measures:
+        if self.triangles is None:
+            raise ValueError("Points have no area: extract triangles.")
+        if self._measures is None:
+            self._measures = measure(self.points, self.triangles, self._isovalues)
+        return self._measures
+
+    def _sums(self, numbers: list[float]) -> Union[float, np.ndarray]:
+        """The sums over the pieces of each isovalue."""
+        levels, places = np.unique([piece.isovalue for piece in self.pieces], return_inverse=True)
+        if len(levels) <= 1:
+            return float(sum(numbers))
+        return np.bincount(places.reshape(-1), numbers)
 
     def splats(
         self, scale: float = 1.0, *, threads: Optional[int] = None, progress: Progress = None

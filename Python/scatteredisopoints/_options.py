@@ -24,7 +24,7 @@ CONSTANTS = {
 }
 
 _OF_POINTS = ("angle", "compute_splats", "minimum_spacing", "number_of_neighbors")
-_OF_TRIANGLES = ("capping", "regularize")
+_OF_TRIANGLES = ("capping", "minimum_piece_size", "regularize")
 OF_SLICES = ("regularize", "drop_gaps", "output_points_precision")
 _NOT_OPTIONS = ("size", "triangles", "keep_tetrahedra", "keep_hull_slivers")
 _PARAMETERS = ("arrays", "isovalues", "progress", "threads", "triangles")  # of contour(), which are no options

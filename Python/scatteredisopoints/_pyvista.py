@@ -16,6 +16,7 @@ import pyvista as pv
 
 from . import _datasets, _library
 from ._arrays import CELL, POINT, are_names, package_of
+from ._bodies import body_of
 from ._derivatives import DERIVATIVES
 from ._grids import box_of, grid_in, line_between, names_of_derivatives
 from ._options import hint, switch
@@ -74,8 +75,7 @@ class ScatteredAccessor:
         threads : int, optional
             Maximum number of threads. By default all available cores.
         **options : dict, optional
-            Options of :func:`scatteredisopoints.contour`, such as ``drop_gaps=False`` or
-            ``regularize=False``.
+            Options of :func:`scatteredisopoints.contour`, such as ``capping=True`` or ``drop_gaps=False``.
 
         Returns
         -------
@@ -115,6 +115,42 @@ class ScatteredAccessor:
         surface = samples._contour(
             isosurfaces, triangles, options.pop("arrays", None), threads, progress_bar, options, stacklevel=3)
         return surface.polydata
+
+    def body(
+        self,
+        scalars: Union[str, Sequence[str], np.ndarray, None] = None,
+        *,
+        preference: str = "point",
+        progress_bar: bool = False,
+        threads: Optional[int] = None,
+        **options: Any,
+    ) -> pv.PolyData:
+        """Find the closed surface of all samples, from their positions alone.
+
+        Parameters
+        ----------
+        scalars, preference, progress_bar, threads
+            As in :meth:`probe`.
+        **options : dict, optional
+            ``drop_gaps=False`` for the convex hull, ``minimum_piece_size`` to leave out droplets.
+
+        Returns
+        -------
+        pyvista.PolyData
+            Closed triangles between samples, with their arrays.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import pyvista as pv
+        >>> cloud = pv.PolyData(np.random.default_rng(1).random((20000, 3)))
+        >>> body = cloud.scattered.body()
+        >>> bool(body.is_manifold and 0.95 < body.volume < 1.0)
+        True
+        """
+        samples, arrays = self._samples_with(scalars, preference, progress_bar, threads)
+        return body_of(samples, None if scalars is None else arrays, threads, progress_bar, options,
+                       stacklevel=3).polydata
 
     def splats(self, scale: float = 1.0, *, threads: Optional[int] = None) -> pv.PolyData:
         """Turn isopoints into polygons that show them as a closed surface.

@@ -17,6 +17,7 @@ import numpy as np
 from . import _datasets, _library
 from ._arrays import (
     are_names, as_numpy, describe_masked, further_arrays, isovalues_of, positions_of, readable, tensors, values_of)
+from ._bodies import body_of
 from ._cuts import Normal
 from ._interpolator import Interpolator
 from ._isosurface import Isosurface
@@ -296,6 +297,20 @@ class Samples:
                 surface = _library.Surface(pointer.value)
         return surface
 
+    def body(
+        self, arrays: Any = None, *, threads: Optional[int] = None, progress: Progress = None, **options: Any
+    ) -> Isosurface:
+        """The closed surface of all samples: :func:`body` describes parameters, result and errors.
+
+        Parameters
+        ----------
+        arrays
+            As in :meth:`slice`.
+        threads
+            None stands for the number that the object was made with.
+        """
+        return body_of(self, arrays, threads, progress, options, stacklevel=3)
+
     def slice(
         self,
         normal: Optional[Normal] = None,
@@ -489,7 +504,7 @@ class Samples:
         maker = self._maker if options.compute_normals else replace(self._maker, normals=None)
         caps = {"IsCap": _library.view(surface, _library.CAPS)} if options.capping else {}
         return Isosurface(_library.view(surface, _library.POINTS), triangles, arrays, shapes, maker, threads=threads,
-                          cell_arrays=caps)
+                          cell_arrays=caps, isovalues=_library.view(surface, _library.ISOVALUES))
 
 
 _all: weakref.WeakSet[Samples] = weakref.WeakSet()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Isosurfaces of NumPy arrays and data sets in one call: see contour()."""
+"""Isosurfaces and bodies of NumPy arrays and data sets in one call: see contour() and body()."""
 
 from __future__ import annotations
 
@@ -7,10 +7,12 @@ import importlib
 from typing import Any, Iterable, Mapping, Optional, Union
 
 from ._arrays import isovalues_of, package_of
+from ._bodies import body_of
 from ._datasets import data_object
 from ._isosurface import Isosurface
 from ._progress import Progress, part, shown_progress
 from ._samples import Samples
+from .probing import samples_for
 
 
 def contour(
@@ -54,9 +56,10 @@ def contour(
         compute_projection_orders=True, compute_normals=False, compute_scalars=False, keep_tree=False,
         normal_method="NORMALS_FROM_PLANES" (or "NORMALS_FROM_FIELD"),
         output_points_precision="SINGLE_PRECISION" (or "DOUBLE_PRECISION"). Of points only: minimum_spacing=0.5,
-        compute_splats=False, angle=54.7, number_of_neighbors=12. Of triangles only: regularize=False, and
-        capping=True (with regularize=False and projection=None), which closes the body of the samples at or above
-        the isovalue where they end.
+        compute_splats=False, angle=54.7, number_of_neighbors=12. Of triangles only: regularize=False;
+        capping=True, which closes the body of the samples at or above the isovalue where they end; and
+        minimum_piece_size=0.01, the least area of pieces as a share of the largest one's, which leaves out droplets
+        but no bubbles.
 
         With MPI, each process contours its own samples unless `controller` is given, which needs the compiled
         VTK classes: then all ranks must make this call, and only the first one raises errors.
@@ -107,6 +110,62 @@ def contour(
         samples = Samples(positions, values, threads=threads, progress=part(report, 0.0, 0.5))
         return samples._contour(
             isovalues, triangles, arrays, None, part(report, 0.5, 1.0), options, stacklevel=3)
+
+
+def body(
+    positions: Any,
+    arrays: Any = None,
+    *,
+    threads: Optional[int] = None,
+    progress: Progress = None,
+    **options: Any,
+) -> Isosurface:
+    """Finds the closed surface of all samples, such as particles, from their positions alone.
+
+    Parameters
+    ----------
+    positions
+        The samples' positions, shape (n, 3), in any unit of length. Or a data set instead: any grid or composite of
+        VTK, PyVista or vedo.
+    arrays
+        Numbers of the samples, shape (n,) or (n, c), or a mapping of names to such arrays. For a data set also the
+        name of an array of points or cells, or a list of names. None: all arrays of the data set.
+    threads, progress
+        As in :func:`contour`.
+    **options
+        drop_gaps=False: the convex hull. minimum_piece_size, output_points_precision: as in :func:`contour`.
+
+    Returns
+    -------
+    Isosurface
+        Triangles between samples, counterclockwise seen from outside: closed, each edge with two triangles, each
+        point with one fan. Arrays are those of the samples.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If arguments have a wrong shape or type, an option is unknown or out of its range, or there are no samples.
+    MemoryError
+        If there is not enough memory.
+    KeyboardInterrupt
+        After Ctrl-C, within a fraction of a second.
+
+    Warns
+    -----
+    RuntimeWarning
+        About skipped samples, and if there is no body.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from scatteredisopoints import body
+    >>> positions = np.random.default_rng(1).random((20000, 3))
+    >>> bool(0.95 < body(positions).volume < 1.0)
+    True
+    """
+    with shown_progress(progress, "Finding the body") as report:
+        samples = Samples._of(samples_for(positions, arrays), threads, progress=part(report, 0.0, 0.2))
+        return body_of(samples, arrays, None, part(report, 0.2, 1.0), options, stacklevel=3)
 
 
 def compiled_filters() -> Optional[Any]:

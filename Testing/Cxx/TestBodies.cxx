@@ -24,6 +24,15 @@ isopoint::ExtractionRequest requestOf(double isovalue, bool dropsGaps = true)
   return request;
 }
 
+/// With the defaults of users: regularized and projected.
+isopoint::ExtractionRequest defaultRequestOf(double isovalue, bool dropsGaps)
+{
+  auto request = requestOf(isovalue, dropsGaps);
+  request.isosurface.regularizes = true;
+  request.isosurface.fit = isopoint::FitRequest{ isopoint::FitOrder::Cubic, true };
+  return request;
+}
+
 double one(const Vector& /*p*/)
 {
   return 1.0;
@@ -215,6 +224,56 @@ auto contentsOf(const ExtractedIsosurface& extracted)
     ranks::described(extracted), extracted.triangles, extracted.areCaps, extracted.droppedInGaps);
 }
 
+/// The samples at vertices of caps.
+std::set<std::uint64_t> samplesOf(const ExtractedIsosurface& extracted)
+{
+  std::set<std::uint64_t> samples;
+  for (std::size_t i = 0; i < extracted.surface.size(); ++i)
+  {
+    const isopoint::IsopointEdge& edge = extracted.surface.edgeOf(i);
+    if (edge.isSample())
+    {
+      samples.insert(edge.first);
+    }
+  }
+  return samples;
+}
+
+Vector positionOf(const Cloud& cloud, std::uint64_t sample)
+{
+  const double* const p = cloud.positions.data() + 3 * sample;
+  return { p[0], p[1], p[2] };
+}
+
+/// Expects the vertices of caps that are no samples on their edges.
+/// @returns how many are not where linear interpolation places them
+std::size_t expectRimOnEdges(const ExtractedIsosurface& extracted, const Cloud& cloud)
+{
+  std::set<std::size_t> ofCaps;
+  for (std::size_t i = 0; i < extracted.triangles.size(); ++i)
+  {
+    if (extracted.areCaps[i])
+    {
+      ofCaps.insert(extracted.triangles[i].begin(), extracted.triangles[i].end());
+    }
+  }
+  std::size_t moved = 0;
+  for (const std::size_t vertex : ofCaps)
+  {
+    const auto [begin, end] =
+      std::array{ extracted.surface.edgeBegin(vertex), extracted.surface.edgeBegin(vertex + 1) };
+    EXPECT_EQ(end, begin + 1); // not merged with others
+    const isopoint::IsopointEdge& edge = extracted.surface.edges[begin];
+    const Vector first = positionOf(cloud, edge.first);
+    const Vector along = positionOf(cloud, edge.second) - first;
+    const Vector offset = extracted.surface.positions[vertex] - first;
+    EXPECT_LE(isopoint::lengthOf(offset - edge.parameter * along),
+      1e-12 * (isopoint::lengthOf(along) + isopoint::lengthOf(first)));
+    moved += !extracted.surface.fits.empty() && extracted.surface.fits[vertex].order ? 1 : 0;
+  }
+  return moved;
+}
+
 } // namespace
 
 TEST(Bodies, AreThoseOfTheDefinition)
@@ -337,4 +396,86 @@ TEST(Bodies, EndAtVoids)
   EXPECT_EQ(topologyOf(surfaceOf(bored(40000, fromMiddle, 0.2)).triangles), ring);
   const Topology twoBalls{ 4, 2, 0, true };
   EXPECT_EQ(topologyOf(surfaceOf(twoBoxes(8000, 0.2)).triangles), twoBalls);
+}
+
+/// By default vertices are merged, edges flipped, and vertices moved.
+TEST(Bodies, StayClosedWhenRegularizedAndProjected)
+{
+  std::size_t index = 0;
+  std::size_t movedOnRim = 0;
+  for (const auto& [cloud, isovalue, dropsGaps] : allCases())
+  {
+    SCOPED_TRACE(index);
+    const ExtractedIsosurface exact = clouds::extracted(cloud, requestOf(isovalue, dropsGaps));
+    const auto request = defaultRequestOf(isovalue, dropsGaps);
+    const ExtractedIsosurface extracted = clouds::extracted(cloud, request);
+    const Topology topology = topologyOf(extracted.triangles);
+    EXPECT_TRUE(topology.isManifold);
+    EXPECT_EQ(topology.borders, 0u);
+    const Size size = sizeOf(extracted);
+    EXPECT_GE(size.volume, -1e-15 * size.area * size.extent);
+    EXPECT_EQ(extracted.areCaps.size(), extracted.triangles.size());
+    EXPECT_EQ(samplesOf(extracted), samplesOf(exact));
+    movedOnRim += expectRimOnEdges(extracted, cloud);
+    EXPECT_TRUE(contentsOf(clouds::extracted(cloud, request, 3)) == contentsOf(extracted));
+    if (index % 4 == 0)
+    {
+      ranks::expectSameAsOneRank(
+        cloud, std::array<std::size_t, 3>{ 2, 3, 5 }[index % 3], ranks::allDeals[0], { request });
+    }
+    ++index;
+  }
+  EXPECT_GT(movedOnRim, 100u);
+}
+
+TEST(Bodies, OfLatticesHaveFlatCapsAndWellShapedTriangles)
+{
+  const Cloud cloud = withValuesOf(clouds::lattice(16, 16, 16),
+    [](const Vector& p) {
+      return clouds::waves({ p[0] / 15.0, p[1] / 15.0, p[2] / 15.0 });
+    });
+  const ExtractedIsosurface extracted = clouds::extracted(cloud, defaultRequestOf(0.2, true), 2);
+  const ExtractedIsosurface exact = clouds::extracted(cloud, requestOf(0.2), 2);
+  std::size_t caps = 0;
+  for (std::size_t i = 0; i < extracted.triangles.size(); ++i)
+  {
+    if (extracted.areCaps[i])
+    {
+      ++caps;
+      const auto& [a, b, c] = extracted.triangles[i];
+      const std::vector<Vector>& places = extracted.surface.positions;
+      const auto isOnFace = [&](std::size_t axis)
+      {
+        const auto isAt = [&](double face)
+        { return places[a][axis] == face && places[b][axis] == face && places[c][axis] == face; };
+        return isAt(0.0) || isAt(15.0);
+      };
+      EXPECT_TRUE(isOnFace(0) || isOnFace(1) || isOnFace(2));
+    }
+  }
+  EXPECT_GT(caps, 100u);
+  EXPECT_LT(2 * extracted.surface.size(), exact.surface.size() + samplesOf(exact).size());
+  EXPECT_NEAR(sizeOf(extracted).volume, sizeOf(exact).volume, 0.01 * sizeOf(exact).volume);
+}
+
+TEST(Bodies, LeaveOutDropletsButNoBubbles)
+{
+  const Vector middle{ 0.35, 0.35, 0.35 };
+  const Cloud cloud = withValuesOf(clouds::uniform(40000, 8),
+    [&](const Vector& p)
+    {
+      const double distance = isopoint::lengthOf(p - middle);
+      const double hollow = std::min(0.3 - distance, distance - 0.1);
+      return std::max(hollow, 0.07 - isopoint::lengthOf(p - Vector{ 0.8, 0.8, 0.8 }));
+    });
+  auto request = defaultRequestOf(0.0, true);
+  const ExtractedIsosurface all = clouds::extracted(cloud, request);
+  EXPECT_EQ(topologyOf(all.triangles), (Topology{ 6, 3, 0, true }));
+  request.isosurface.minimumPieceSize = 0.2; // the bubble's share is about 0.11
+  const ExtractedIsosurface large = clouds::extracted(cloud, request);
+  EXPECT_EQ(topologyOf(large.triangles), (Topology{ 4, 2, 0, true }));
+  EXPECT_EQ(large.areCaps.size(), large.triangles.size());
+  EXPECT_EQ(large.surface.size(), 4 + large.triangles.size() / 2); // none without triangles
+  request.isosurface.minimumPieceSize = 0.01;
+  EXPECT_TRUE(contentsOf(clouds::extracted(cloud, request)) == contentsOf(all));
 }

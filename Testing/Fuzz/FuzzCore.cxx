@@ -107,6 +107,11 @@ void run(ByteSource& bytes)
     {
       auto request = clouds::withTriangles(clouds::requestOf(isovalue, std::nullopt, bytes.flag()));
       request.isosurface.caps = true;
+      request.isosurface.regularizes = bytes.flag();
+      if (bytes.flag())
+      {
+        request.isosurface.fit = { isopoint::FitOrder::Cubic, true };
+      }
       requireClosed(extractor.extract(execution, request));
     }
     if (bytes.flag())

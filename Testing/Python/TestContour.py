@@ -6,7 +6,7 @@ import warnings
 
 import numpy as np
 import scatteredisopoints
-from scatteredisopoints import contour, vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
+from scatteredisopoints import Samples, body, contour, vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
 from vtk_data import assert_same, blocks_of, centers_in, cloud_of, named, updated
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkTable
@@ -95,13 +95,74 @@ class ContourTest(unittest.TestCase):
         for result in (contour(positions, -values, -0.55, capping=True, arrays={"large": large}, **exact),
                        contour(data, None, -0.55, capping=True, **exact)):
             np.testing.assert_array_equal(result.arrays["large"][at_samples], large[found])
-        needs = "capping requires regularize off and projection 0"
-        for wrong, text in ((dict(regularize=True), needs), (dict(projection="CUBIC_FIT"), needs),
+        for wrong, text in ((dict(projection="CREASE_FIT"), "capping has no creases: set projection to 3 or less"),
                             (dict(compute_gradients=True), "capping has no gradients"),
                             (dict(normal_method="normals_from_field"), "capping has no gradients")):
             with self.assertRaisesRegex(ValueError, text):
                 contour(positions, -values, -0.55, capping=True, **{**exact, **wrong})
         self.assertEqual(len(contour(positions, -values, -0.55, **exact).cell_arrays), 0)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")  # vertices at samples need no fit
+            whole = contour(positions, -values, (-np.inf, -0.55), triangles=True, capping=True)
+        self.same(whole, cloud_of(positions, -values), [-np.inf, -0.55], vtkScatteredIsosurfaceFilter, Capping=True)
+
+    def test_pieces(self):
+        """A hollow ball and a droplet, by arrays and by a data set."""
+        positions = np.random.default_rng(4).random((30000, 3))
+        distance = np.linalg.norm(positions - 0.35, axis=1)
+        values = np.maximum(np.minimum(0.3 - distance, distance - 0.1),
+                            0.07 - np.linalg.norm(positions - 0.8, axis=1))
+        data = cloud_of(positions, values)
+        for of, threads in ((positions, values), None), ((data, None), None), ((data, None), 2):
+            whole = contour(*of, 0.0, triangles=True, capping=True, threads=threads)
+            radii = np.array([0.3, 0.1, 0.07])
+            np.testing.assert_allclose([piece.area for piece in whole.pieces], 4 * np.pi * radii**2, rtol=0.05)
+            volumes = np.array([piece.volume for piece in whole.pieces])
+            np.testing.assert_allclose(volumes, 4 / 3 * np.pi * radii**3 * [1, -1, 1], rtol=0.08)
+            self.assertAlmostEqual(whole.volume, volumes.sum(), 12)
+            self.assertEqual([piece.isovalue for piece in whole.pieces], [0.0] * 3)
+            sides = np.concatenate([np.roll(whole.triangles, -corner, 1)[:, :2] for corner in range(3)])
+            for ends in sides.T:  # each piece has its own points
+                pieces_of = np.full(len(whole), -1)
+                pieces_of[ends] = np.tile(whole.region_ids, 3)
+                np.testing.assert_array_equal(pieces_of[ends], np.tile(whole.region_ids, 3))
+            large = contour(*of, 0.0, triangles=True, capping=True, minimum_piece_size=0.2, threads=threads)
+            self.assertEqual([piece.volume > 0 for piece in large.pieces], [True, False])
+        several = contour(positions, -distance, (-0.2, -0.3), triangles=True)
+        np.testing.assert_allclose(several.volume, 4 / 3 * np.pi * np.array([0.3, 0.2])**3, rtol=0.03)
+        np.testing.assert_allclose(several.area, 4 * np.pi * np.array([0.3, 0.2])**2, rtol=0.03)
+        with self.assertWarnsRegex(RuntimeWarning, "The surface is open, so it has no volume: extract it with capping"):
+            self.assertTrue(np.isnan(contour(positions, distance, 0.5, triangles=True).volume))
+        self.assertEqual(contour(positions, distance, 0.2, triangles=True, capping=True, minimum_piece_size=1).volume,
+                         contour(positions, distance, 0.2, triangles=True, capping=True).volume)
+        with self.assertRaisesRegex(ValueError, "Points have no area: extract triangles"):
+            contour(positions, distance, 0.2).pieces
+        with self.assertRaisesRegex(ValueError, "minimum_piece_size is 2, which is out of range"):
+            contour(positions, distance, 0.2, triangles=True, minimum_piece_size=2.0)
+
+    def test_bodies_of_positions(self):
+        positions = np.random.default_rng(5).random((20000, 3))
+        number = np.arange(len(positions))
+        data = cloud_of(positions, number.astype(float))
+        whole = body(positions, {"number": number})
+        np.testing.assert_array_equal(whole.points, positions[whole.arrays["number"]])
+        self.assertTrue(0.98 < whole.volume < 1)
+        self.assertEqual(len(whole.pieces), 1)
+        of_data = body(data)
+        for array, other in ((whole.points, of_data.points), (whole.triangles, of_data.triangles)):
+            np.testing.assert_array_equal(array, other)
+        self.assertEqual(set(of_data.cell_arrays), {"IsCap"})
+        samples = Samples(positions, number)
+        samples.contour(5000.5)
+        np.testing.assert_array_equal(samples.body().triangles, whole.triangles)
+        self.assertEqual(len(samples.contour(5000.5)), len(contour(positions, number, 5000.5)))
+        hull = body(positions[np.abs(positions[:, 0] - 0.5) > 0.2], drop_gaps=False)
+        self.assertEqual(len(hull.pieces), 1)
+        self.assertEqual(len(body(positions[np.abs(positions[:, 0] - 0.5) > 0.2]).pieces), 2)
+        with self.assertWarnsRegex(RuntimeWarning, "There is no body: the samples are in one plane, or fewer than"):
+            self.assertEqual(body(positions * [1, 1, 0]).volume, 0.0)
+        with self.assertRaisesRegex(TypeError, "unknown option capping: there are drop_gaps"):
+            body(positions, capping=True)
 
     def test_arrays_of_other_types(self):
         positions, values = samples()
