@@ -1,18 +1,20 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Volume and area of bodies of samples with one value, beside the true ones: prints the table of docs/triangles.md.
+"""Volume and area of bodies of samples alone, beside the true ones: prints the table of docs/triangles.md.
 
-With --file FILE ARRAY ISOVALUE (VTK's XML formats), the time with and without caps instead.
+With --file FILE ARRAY ISOVALUE (VTK's XML formats), time and angles with and without caps instead; with --particles
+FILE, time and closedness beside pysplashsurf, which it needs, with trimesh and scipy.
 """
 import argparse
 import time
 
 import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import common
-from scatteredisopoints import contour
+from scatteredisopoints import body, contour
 
-EXACT = {"triangles": True, "regularize": False, "projection": None, "compute_normals": False}
+OPTIONS = {"triangles": True, "compute_normals": False}
 
 
 def lattice(count, half=1.0):
@@ -48,35 +50,84 @@ def clouds():
     yield "pipe of 24 rows around", pipe, 48 * np.sin(np.pi / 12) * .75, None
 
 
-def measures(surface):
-    a, b, c = (surface.points[surface.triangles[:, corner]] for corner in range(3))
-    return np.einsum("ij,ij->", a, np.cross(b, c)) / 6, np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
-
-
 def seconds(work):
     begin = time.process_time()
     work()
     return time.process_time() - begin
 
 
+def elapsed(work):
+    begin = time.perf_counter()
+    result = work()
+    return time.perf_counter() - begin, result
+
+
+def least_angles(points, triangles):
+    """In degrees."""
+    corners = points[triangles].astype(float)
+    sides = np.roll(corners, -1, 1) - corners
+    return np.min([np.degrees(np.arctan2(np.linalg.norm(np.cross(sides[:, i], -sides[:, i - 1]), axis=1),
+                                         np.einsum("ij,ij->i", sides[:, i], -sides[:, i - 1]))) for i in range(3)], 0)
+
+
+def with_caps(data, array, isovalue):
+    exact = {**OPTIONS, "regularize": False, "projection": None}
+    for name, options in (("default", OPTIONS), ("exact", exact)):
+        runs = [[seconds(lambda: contour(data, array, isovalue, capping=capping, **options))
+                 for capping in (False, True)] for _ in range(5)]
+        without, capped = np.median(runs, axis=0)
+        print(f"{name}: {without:.2f} s without caps, {capped:.2f} s with caps, ratio {capped / without:.2f}")
+    surface, closed = (contour(data, array, isovalue, capping=capping, **OPTIONS) for capping in (False, True))
+    isosurface = closed.triangles[closed.cell_arrays["IsCap"] == 0]
+    angles = [np.percentile(least_angles(*mesh), 5) if len(mesh[1]) else np.nan
+              for mesh in ((surface.points, surface.triangles), (closed.points, isosurface))]
+    print(f"least angle, 5th percentile: {angles[0]:.1f} degrees without caps, {angles[1]:.1f} with caps")
+
+
+def beside_splashsurf(positions):
+    import pysplashsurf
+    import trimesh
+    from scipy.spatial import cKDTree
+    radius = float(np.median(cKDTree(positions).query(positions, 2)[0][:, 1]) / 2)
+    parameters = dict(particle_radius=radius, smoothing_length=2.0, cube_size=0.5, iso_surface_threshold=0.6)
+    smoothing = dict(mesh_cleanup=True, mesh_smoothing_weights=True, mesh_smoothing_iters=25)
+
+    def theirs(**options):
+        mesh = pysplashsurf.reconstruction_pipeline(positions.astype(np.float32), **parameters, **options)[0].mesh
+        return np.asarray(mesh.vertices), np.asarray(mesh.triangles)
+
+    def ours():
+        surface = body(positions)
+        return surface.points, surface.triangles
+
+    print("| | elapsed s | triangles | volume | closed | results of 5 runs |\n|---|---|---|---|---|---|")
+    for name, work in (("body()", ours), ("splashsurf", theirs), ("splashsurf, smoothed", lambda: theirs(**smoothing))):
+        runs = [elapsed(work) for _ in range(5)]
+        points, triangles = runs[-1][1]
+        mesh = trimesh.Trimesh(points, triangles, process=False)
+        count = len({result[0].tobytes() for _, result in runs})
+        is_closed = mesh.is_watertight and mesh.is_winding_consistent
+        print(f"| {name} | {np.median([run[0] for run in runs]):.2f} | {len(triangles)} | {mesh.volume:.4g} |"
+              f" {is_closed} | {count} |")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--file", nargs=3, metavar=("FILE", "ARRAY", "ISOVALUE"))
+    parser.add_argument("--particles", metavar="FILE")
     arguments = parser.parse_args()
     if arguments.file:
-        data, array, isovalue = common.read(arguments.file[0]), arguments.file[1], float(arguments.file[2])
-        runs = [[seconds(lambda: contour(data, array, isovalue, capping=capping, **EXACT))
-                 for capping in (False, True)] for _ in range(5)]
-        without, with_caps = np.median(runs, axis=0)
-        print(f"{without:.2f} s without caps, {with_caps:.2f} s with caps, ratio {with_caps / without:.2f}")
+        with_caps(common.read(arguments.file[0]), arguments.file[1], float(arguments.file[2]))
+        return
+    if arguments.particles:
+        beside_splashsurf(vtk_to_numpy(common.read(arguments.particles).GetPoints().GetData()))
         return
     print("| samples | count | true volume, area | volume, area | triangles |\n|---|---|---|---|---|")
     for name, positions, volume, area in clouds():
-        surface = contour(positions, np.ones(len(positions)), .5, capping=True,
-                          output_points_precision="DOUBLE_PRECISION", **EXACT)
-        found = measures(surface)
+        surface = body(positions, output_points_precision="DOUBLE_PRECISION")
         true = f"{volume:.2f}" + (f", {area:.2f}" if area else "")
-        print(f"| {name} | {len(positions)} | {true} | {found[0]:.3f}, {found[1]:.2f} | {len(surface.triangles)} |")
+        print(f"| {name} | {len(positions)} | {true} | {surface.volume:.3f}, {surface.area:.2f} |"
+              f" {len(surface.triangles)} |")
 
 
 if __name__ == "__main__":

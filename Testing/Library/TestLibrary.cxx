@@ -491,7 +491,16 @@ TEST(Library, InvalidOptionsAreErrors)
   expectInvalidOptions([](auto& o) { o.number_of_neighbors = 2; }, "number_of_neighbors is 2");
   expectInvalidOptions([](auto& o) { o.angle = std::nan(""); }, "angle is nan");
   expectInvalidOptions([](auto& o) { o.projection = 5; }, "projection is 5");
-  for (const std::uint64_t size : { 0, 7, 8, 9, 40, 72, 79, 81, 88, 1000 })
+  expectInvalidOptions(
+    [](auto& o)
+    {
+      o.triangles = 1;
+      o.minimum_piece_size = 1.5;
+    },
+    "minimum_piece_size is 1.5");
+  constexpr std::uint64_t own = sizeof(isopoint_options);
+  for (const std::uint64_t size :
+    std::array<std::uint64_t, 9>{ 0, 7, 8, 9, 40, own - 8, own - 1, own + 1, 1000 })
   {
     expectInvalidOptions([size](auto& o) { o.size = size; }, "isopoint_initialize_options()");
   }
