@@ -9,7 +9,8 @@ usage()
 usage: $0 [DATA]
 Builds the plugin if necessary and makes the pictures of README.md and docs/ in place; look at each before
 you commit it. Those of real data need the folder DATA, whose files docs/testing.md names; without it they
-stay as they are. The test Python.Wheel makes docs/surface.png, and says so if it changes.
+stay as they are. The test Python.Wheel makes docs/surface.png, and says so if it changes; it leaves the
+pictures of docs/gallery in its folder pyvista.
 END
 }
 

@@ -86,5 +86,14 @@ class CheckDocuments(unittest.TestCase):
             "docs/a/b/page.md:1: no file A.cxx"]))
 
 
+class Version(unittest.TestCase):
+    def test_all_files_have_the_version_of_the_header(self):
+        version = re.search('ISOPOINT_VERSION "(.*)"', (ROOT / "Library/isopoint.h").read_text())[1]
+        for name, pattern in (("CHANGELOG.md", r"^## \[([\d.]+)\]"), ("CITATION.cff", r"^version: ([\d.]+)$"),
+                              ("Utilities/conda-forge/recipe.yaml", r'^  version: "([\d.]+)"$'),
+                              ("docs/installing.md", r"/scattered-isopoints_([\d.]+)-1~deb12")):
+            self.assertEqual(re.search(pattern, (ROOT / name).read_text(), re.MULTILINE)[1], version, name)
+
+
 if __name__ == "__main__":
     unittest.main()

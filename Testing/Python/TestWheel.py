@@ -165,6 +165,21 @@ def check_picture(environment, expected):
                  " it, and copy it if it is right")
 
 
+def check_gallery(environment):
+    """Each script draws something. The pictures stay in the environment's folder."""
+    scripts = sorted((ROOT / "Examples/gallery").glob("*.py"))
+    for script in scripts:
+        environment.run("-W", "error::RuntimeWarning", script, **DRAWING)
+        share, shades = map(float, environment.run(
+            "-c", "import sys, numpy as np, pyvista as pv\n"
+            "pixels = np.asarray(pv.read(sys.argv[1]).active_scalars, int)[:, :3]\n"
+            "print((abs(pixels - pixels[0]).max(axis=1) > 8).mean(), len(np.unique(pixels, axis=0)))",
+            environment.folder / f"{script.stem}.png", **DRAWING).split()[-2:])
+        if not (0.05 < share < 0.95 and shades > 100):
+            sys.exit(f"failed: {script.stem}.png shows something at {share:.3f} of it, in {shades:.0f} shades")
+    print(f"{len(scripts)} scripts of the gallery drew their pictures")
+
+
 def main(folder, wheel=None):
     folder = pathlib.Path(folder).resolve()
     shutil.rmtree(folder, ignore_errors=True)
@@ -184,6 +199,7 @@ def main(folder, wheel=None):
         if version in (min(pythons), max(pythons)):
             environment.run(TESTS / "TestPackage.py")
             environment.run(TESTS / "TestProbe.py")
+            environment.run(TESTS / "TestCommandLine.py")
         print(environment.describe() + ": the same bytes")
 
     newest = max(version for version in pythons if version >= (3, 10))
@@ -194,13 +210,16 @@ def main(folder, wheel=None):
     check_results(environment, expected)
     examples = run_examples(environment, "python")
     print(f"{environment.describe()}: passed, {examples} examples of the documents")
-    environment = Environment(folder / "pyvista", pythons[newest], wheel, "pyvista>=0.48", "cvista", "tqdm")
+    environment = Environment(folder / "pyvista", pythons[newest], wheel, "pyvista>=0.48", "cvista", "meshio", "tqdm")
     for backend in ("vtk", "cvista"):
         environment.run(TESTS / "TestPyVista.py", PYVISTA_VTK_BACKEND=backend)
         print(f"{environment.describe()}: PyVista on {backend} passed")
+    environment.run(TESTS / "TestCommandLine.py", PYVISTA_VTK_BACKEND="vtk")  # cvista writes no files
     environment.run(ROOT / "Examples/pyvista_cloud.py", **DRAWING)
     print(f"{run_examples(environment, 'py')} examples of the documents ran")
     check_picture(environment, ROOT / "docs/surface.png")
+    environment.run("-m", "pip", "install", "--quiet", "plotly<6", "kaleido==0.2.1")
+    check_gallery(environment)
     environment.run("-m", "pip", "install", "--quiet", "mypy", "pyright[nodejs]")
     check_types(environment)
     print(f"{environment.describe()}: mypy and pyright passed")

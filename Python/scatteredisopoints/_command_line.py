@@ -1,0 +1,270 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The commands of python -m scatteredisopoints: see main()."""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import math
+import os
+import re
+import sys
+import warnings
+from pathlib import Path
+from typing import Any, Callable, Optional
+
+import numpy as np
+
+from . import __version__
+from ._arrays import as_numpy
+from ._isosurface import Isosurface
+from ._paths import PYTHON_PLUGIN
+from ._polydata import PolyDataMaker
+from ._progress import Progress, part
+from ._reading import read_samples
+from ._samples import Samples
+from ._writing import write_csv, write_file, writer_for
+
+PROGRAM = "python -m scatteredisopoints"
+FILES = """
+FILE: CSV and other text (x, y, z and more columns between commas, semicolons, tabs or blanks; - is stdin), NPY (shape
+(n, 4): x, y, z, value), NPZ, PLY, or what PyVista or meshio reads. OUT: .ply, .stl, .obj, .npz, .csv; with PyVista
+.vtp, .vtk, .vtu; with meshio its formats. ARRAY: a name, or a part such as velocity:x, velocity:0, velocity:magnitude.
+The exit status is 2 for wrong usage, and 1 for all other errors.
+"""
+PARAVIEW = f"""The filters for ParaView are in
+
+    {PYTHON_PLUGIN}
+
+Ways to load them:
+
+- In the window: Tools > Manage Plugins > Load New, and choose this file. Tick Auto Load.
+- For all programs of ParaView: the environment variable PV_PLUGIN_PATH={PYTHON_PLUGIN.parent}
+- In a script: from scatteredisopoints import load_plugin; load_plugin(globals())
+
+A ParaView with a Python of its own, whose NumPy serves, finds the package in a folder of its own:
+
+    pip install --no-deps --target FOLDER scatteredisopoints-*.whl
+
+The file is then FOLDER/scatteredisopoints/paraview/{PYTHON_PLUGIN.name}; PYTHONPATH=FOLDER is for scripts.
+"""
+
+
+def contoured(given: argparse.Namespace, report: Progress) -> Isosurface:
+    samples = read_samples(given.file, [given.array], given.columns)
+    samples.values = as_numpy(samples.arrays.pop(given.array))
+    if samples.values[:1].size > 1:
+        raise ValueError(f'"{given.array}" has {samples.values[0].size} components: choose one, such as'
+                         f" {given.array}:x, or {given.array}:magnitude")
+    samples.name = samples.maker.scalars = given.array
+    samples.are_float = samples.values.dtype == np.float32
+    kept = Samples._of(samples, given.threads, progress=part(report, 0.0, 0.5))
+    return kept.contour(given.isovalues, triangles=not given.points, progress=part(report, 0.5, 1.0),
+                        **({"capping": True} if given.capping else {}), **dict(given.option))
+
+
+def body(given: argparse.Namespace, report: Progress) -> Isosurface:
+    samples = Samples._of(read_samples(given.file, given.arrays, given.columns), given.threads,
+                          progress=part(report, 0.0, 0.2))
+    return samples.body(given.arrays or None, progress=part(report, 0.2, 1.0), **dict(given.option))
+
+
+def sliced(given: argparse.Namespace, report: Progress) -> Isosurface:
+    samples = Samples._of(read_samples(given.file, given.arrays, given.columns), given.threads,
+                          progress=part(report, 0.0, 0.2))
+    return samples.slice(given.normal, given.origin, given.arrays or None, offsets=given.offsets,
+                         interpolation=given.interpolation, progress=part(report, 0.2, 1.0), **dict(given.option))
+
+
+def probed(given: argparse.Namespace, report: Progress) -> Isosurface:
+    samples = read_samples(given.file, given.arrays, given.columns)
+    names = given.arrays or list(samples.arrays)
+    if not names:
+        raise ValueError(f"{given.file} has no arrays of numbers to interpolate")
+    places, found = places_of(given, as_numpy(samples.positions))
+    kept = Samples._of(samples, given.threads, progress=part(report, 0.0, 0.3))
+    values = kept.probe(places, names, gradient=given.gradient, method=given.method, outside=given.outside,
+                        progress=part(report, 0.3, 1.0))
+    values, gradients = values if given.gradient else (values, {})
+    found.update(values, **{f"{name}_gradient": array for name, array in gradients.items()})
+    return Isosurface(places, None, found, {}, PolyDataMaker(normals=None))
+
+
+def places_of(given: argparse.Namespace, positions: np.ndarray) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """Where to probe, and arrays there."""
+    if given.places:
+        return as_numpy(read_samples(given.places).positions), {}
+    if given.line:
+        shares = np.linspace(0, 1, given.resolution + 1)[:, None]
+        begin, end = np.array(given.line)
+        return (1 - shares) * begin + shares * end, {"Distance": shares[:, 0] * math.dist(begin, end)}
+    if given.grid:
+        finite = positions[np.isfinite(positions).all(axis=1)]
+        axes = map(np.linspace, finite.min(axis=0), finite.max(axis=0), given.grid)
+        return np.stack(np.meshgrid(*axes, indexing="ij"), -1).transpose(2, 1, 0, 3).reshape(-1, 3), {}
+    return np.array(given.at), {}
+
+
+def numbers(count: Optional[int] = None, kind: Any = float) -> Callable[[str], list]:
+    """The type of an argument of so many numbers between commas, or of any number of them."""
+    def parse(text: str) -> list:
+        found = [kind(each) for each in text.split(",")]
+        if count not in (None, len(found)):
+            raise argparse.ArgumentTypeError(f"{text.strip()} is not {count} numbers between commas")
+        return found
+
+    parse.__name__ = kind.__name__
+    return parse
+
+
+def direction(text: str) -> Any:
+    """The type of a direction."""
+    return text.strip() if text.strip() in ("x", "y", "z", "-x", "-y", "-z") else numbers(3)(text)
+
+
+def positive_integer(text: str) -> int:
+    """The type of a number of threads or points."""
+    if int(text) < 1:
+        raise ValueError
+    return int(text)
+
+
+def outside(text: str) -> Any:
+    """The type of what places outside get."""
+    return {"fit": None, "nearest": text}[text] if text in ("fit", "nearest") else float(text)
+
+
+def option(text: str) -> tuple[str, Any]:
+    """The type of NAME=VALUE."""
+    name, _, value = text.partition("=")
+    try:
+        return name, ast.literal_eval(value)
+    except (SyntaxError, ValueError):
+        return name, value
+
+
+def make_parsers() -> tuple[argparse.ArgumentParser, dict[str, argparse.ArgumentParser]]:
+    """The parser of all arguments, and those of the commands."""
+    parser = argparse.ArgumentParser(PROGRAM, description="Isosurfaces straight from scattered samples.",
+                                     epilog=f"{PROGRAM} COMMAND --help describes a command.")
+    parser.add_argument("--version", action="version", version=__version__)
+    commands = parser.add_subparsers(metavar="COMMAND", required=True)
+
+    def command(name: str, function: Any, summary: str, out: str, *examples: str) -> argparse.ArgumentParser:
+        text = "".join(f"  {PROGRAM} {name} {each}\n" for each in examples)
+        added = commands.add_parser(
+            name, description=summary, help=summary, epilog=f"examples:\n{text}{FILES}", allow_abbrev=False,
+            formatter_class=argparse.RawDescriptionHelpFormatter)
+        added.set_defaults(command=name, function=function, error=added.error)
+        added.add_argument("file", metavar="FILE", help="the samples")
+        added.add_argument("-o", dest="out", metavar="OUT", help=f"default: {out}")
+        added.add_argument("--columns", metavar="X,Y,Z", type=lambda text: text.split(","),
+                           help="the columns of a table that are coordinates")
+        added.add_argument("--threads", metavar="N", type=positive_integer, help="default: all cores")
+        if name != "contour":
+            added.set_defaults(points=name == "probe")
+            added.add_argument("arrays", metavar="ARRAY", nargs="*", help="default: all")
+        if name != "probe":
+            added.add_argument("--option", metavar="NAME=VALUE", action="append", type=option, default=[],
+                               help="a further property, such as drop_gaps=False; docs/python.md lists them")
+        return added
+
+    beside = "FILE's name with _{}.ply, in this folder"
+    added = command("contour", contoured, "Isosurfaces, as triangles or points.", beside.format("contour"),
+                    "samples.csv temperature 300 350", "flow.vtu velocity:magnitude 0.5 -o surface.stl",
+                    "samples.npy value -1e-3 --points --option projection=CREASE_FIT")
+    added.add_argument("array", metavar="ARRAY")
+    added.add_argument("isovalues", metavar="ISOVALUE", nargs="+", type=float)
+    added.add_argument("--points", action="store_true", help="points with normals and radii instead of triangles")
+    added.add_argument("--capping", action="store_true", help="close the body of the samples at or above ISOVALUE")
+    command("body", body, "The closed surface of all samples.", beside.format("body"), "particles.ply -o body.stl",
+            "particles.csv density --option minimum_piece_size=0.01")
+    added = command("slice", sliced, "Slices by planes.", beside.format("slice"), "samples.csv --normal z",
+                    "flow.vtu velocity pressure --normal 1,1,0 --origin 0,0,0.5 --offsets -0.1,0,0.1 -o slices.stl")
+    added.add_argument("--normal", type=direction, default="x", help="x, y, z, -x, -y, -z, or numbers such as 1,1,0")
+    added.add_argument("--origin", type=numbers(3), metavar="X,Y,Z", help="default: the center of the bounds")
+    added.add_argument("--offsets", type=numbers(), default=[0.0], metavar="D,...", help="distances along the normal")
+    added.add_argument("--interpolation", choices=("fits", "linear", "nearest"), default="fits")
+    added = command("probe", probed, "Values at places.", "CSV to stdout", "samples.csv temperature --at 0,0,0.5",
+                    "flow.vtu velocity --line 0,0,0 1,0,0 --resolution 100 -o line.csv",
+                    "samples.npz --grid 50,50,50 --gradient -o grid.npz")
+    places = added.add_mutually_exclusive_group(required=True)
+    places.add_argument("--at", action="append", type=numbers(3), metavar="X,Y,Z", help="a place; may be repeated")
+    places.add_argument("--places", metavar="FILE", help="a file of places")
+    places.add_argument("--line", nargs=2, type=numbers(3), metavar="X,Y,Z")
+    places.add_argument("--grid", type=numbers(3, positive_integer), metavar="NX,NY,NZ",
+                        help="so many points along the axes of the bounds")
+    added.add_argument("--resolution", type=positive_integer, metavar="N", default=1000, help="pieces of the line")
+    added.add_argument("--gradient", action="store_true", help="gradients, too")
+    added.add_argument("--method", choices=("blend", "cubic", "quadratic", "affine", "nearest"), default="blend")
+    added.add_argument("--outside", type=outside, metavar="VALUE", default=math.nan,
+                       help="for places outside: a number, nearest or fit; default: nan")
+    commands.add_parser("paraview", help="Ways to load the filters into ParaView.")
+    return parser, commands.choices
+
+
+def show(share: float) -> None:
+    """Shows the share done, in a line that the next one overwrites."""
+    print(f"\r{100 * share:3.0f} %", end="\r", file=sys.stderr, flush=True)
+
+
+def run(given: argparse.Namespace) -> None:
+    """Runs a command on a file and writes the result."""
+    stem = "stdin" if given.file == "-" else Path(given.file).stem
+    out = given.out or (None if given.command == "probe" else f"{stem}_{given.command}.ply")
+    if out is not None:
+        try:
+            write = writer_for(out, not given.points)
+        except ValueError as error:
+            given.error(str(error))
+        if not Path(out).absolute().parent.is_dir():
+            raise ValueError(f"there is no folder for {out}: make it first")
+        if os.path.exists(out) and os.path.exists(given.file) and os.path.samefile(out, given.file):
+            given.error(f"{out} would replace the samples: choose another OUT")
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", RuntimeWarning)
+        try:
+            surface = given.function(given, show if sys.stderr.isatty() else None)
+        finally:
+            if sys.stderr.isatty():
+                print("\r     ", end="\r", file=sys.stderr)
+    messages = [str(each.message) for each in caught if issubclass(each.category, RuntimeWarning)]
+    if len(surface) == 0:
+        raise ValueError(" ".join(messages) or "there is no surface")
+    for message in messages:
+        print(f"{PROGRAM} {given.command}: warning: {message}", file=sys.stderr)
+    if out is None:
+        write_csv(sys.stdout.fileno(), surface)
+        return
+    write_file(write, out, surface)
+    triangles = "" if surface.triangles is None else f", {len(surface.triangles)} triangles"
+    volume = f", volume {surface.volume:.6g}" if given.command == "body" else ""
+    print(f"{out}: {len(surface)} points{triangles}{volume}", flush=True)
+
+
+def main(arguments: list[str]) -> int:
+    """Runs a command; returns its exit status."""
+    parser, commands = make_parsers()
+    if not arguments or arguments[0] not in commands or arguments[0] == "paraview":
+        parser.parse_args(arguments)  # ends, but for paraview
+        print(PARAVIEW, end="")
+        return 0
+    # A blank before negative numbers and normals: these are no options.
+    rest = [re.sub(r"^(?=-[\d.xyz])", " ", each) for each in arguments[1:]]
+    given = commands[arguments[0]].parse_intermixed_args(rest)
+    try:
+        run(given)
+        return 0
+    except BrokenPipeError:  # the reader has ended; so that Python says nothing when it flushes
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+    except KeyboardInterrupt:
+        text = "interrupted"
+    except (ImportError, TypeError, ValueError) as error:
+        text = str(error)
+    except OSError as error:
+        text = f"{error.filename}: {error.strerror}" if error.filename else str(error)
+    except Exception as error:
+        text = repr(error)
+    print(f"{PROGRAM} {given.command}: error: {' '.join(text.split())}", file=sys.stderr)
+    return 1

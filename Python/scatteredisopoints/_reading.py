@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Files of samples, for the command line: see read_samples()."""
+
+from __future__ import annotations
+
+import contextlib
+import csv
+import importlib.util
+import io
+import logging
+import math
+import re
+import sys
+import zipfile
+from itertools import chain, islice, takewhile
+from pathlib import Path
+from typing import Any, Optional, Sequence, TextIO
+
+import numpy as np
+
+from . import _datasets
+from ._arrays import CELL, POINT, as_numpy
+from ._polydata import PolyDataMaker
+
+_TEXT = (".asc", ".csv", ".dat", ".tsv", ".txt", ".xyz")
+_MISSING = ("", "n/a", "na", "none", "null")  # entries of text without a number, beside "nan"
+_POSITIONS = (("x", "y", "z"), ("points",), ("positions",), *(tuple(f"points{separator}{axis}" for axis in range(3))
+                                                               for separator in ":_"))  # names in lower case
+PLY_TYPES = {"char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4", "float": "f4",
+             "double": "f8"}  # others, such as int8, are NumPy's names
+
+
+def read_samples(path: str, names: Sequence[str] = (), columns: Optional[Sequence[str]] = None
+                 ) -> _datasets.DataSamples:
+    """The samples of a file, without values, with all arrays, and with those of the given names.
+
+    path: of a table (text, NPY, NPZ), a PLY file, or a file that PyVista or meshio reads; "-": a table from stdin.
+    names: of arrays, or of parts of these: NAME:0, NAME:x or NAME:magnitude.
+    columns: the arrays of a table with the coordinates, or the one with positions; None: usual names.
+
+    Raises OSError if the file cannot be read, ImportError without a package for it, ValueError for wrong contents.
+    """
+    try:
+        data = _read(path)
+    except Exception as error:
+        if isinstance(error, (ImportError, MemoryError)) or getattr(error, "filename", None):
+            raise
+        raise ValueError(f"{path} cannot be read: {error}") from error
+    unusable: dict[str, Any] = {}
+    if isinstance(data, dict):
+        positions = _positions(path, data, columns)
+        unusable = {name: array for name, array in data.items() if isinstance(array, Exception)}
+        data = {name: array for name, array in data.items() if np.shape(array)[:1] == positions.shape[:1]}
+        known = set(data)
+    else:
+        known = {name for leaf in _datasets.leaves(data) for kind in (POINT, CELL) if leaf.IsA("vtkDataSet")
+                 for name, _, _ in _datasets.named_arrays(leaf.GetAttributes(kind))}
+    wholes = [name if name in known else name.rpartition(":")[0] for name in names]
+    for name in (name for name, whole in zip(names, wholes) if whole not in known):
+        there = ", ".join(sorted(known)) or "none"
+        raise ValueError(f"{path}: {unusable[name]}" if name in unusable else
+                         f'{path} has no array of numbers named "{name}": there are {there}')
+    if isinstance(data, dict):
+        samples = _datasets.DataSamples(positions, None, None, data, PolyDataMaker())
+    else:
+        samples = (_datasets.samples_with(data, wholes, (POINT, CELL)) if names else
+                   _datasets.samples_at(data, with_arrays=True))
+    for name, whole in zip(names, wholes):
+        if name != whole:
+            samples.arrays[name] = _part(whole, as_numpy(samples.arrays[whole]), name[len(whole) + 1:].lower())
+    return samples
+
+
+def _part(name: str, array: np.ndarray, part: str) -> np.ndarray:
+    """A component of an array, or its magnitude."""
+    array = array.reshape(len(array), -1)
+    if part == "magnitude":
+        return np.linalg.norm(array, axis=1)
+    parts = {name: i for names in ("xyz", map(str, range(array.shape[1]))) for i, name in enumerate(names)}
+    if parts.get(part, array.shape[1]) >= array.shape[1]:
+        raise ValueError(f'"{name}" has no component "{part}": there are 0 to {array.shape[1] - 1}, and magnitude')
+    return array[:, parts[part]]
+
+
+def _positions(path: str, table: dict[str, Any], columns: Optional[Sequence[str]]) -> np.ndarray:
+    """Takes the positions out of a table."""
+    names = {re.sub(r" *[([].*", "", name.lower()): name for name in table}  # without units
+    usual = ([names[name] for name in each] for each in _POSITIONS if names.keys() >= set(each))
+    wanted = columns or next(usual, ["x"])
+    for name in (name for name in wanted if name not in table):
+        raise ValueError(f'{path} has no "{name}": give the coordinates by --columns; there are {", ".join(table)}')
+    arrays = [table.pop(name) for name in wanted]
+    for error in (array for array in arrays if isinstance(array, Exception)):
+        raise ValueError(f"{path}: {error}")
+    return arrays[0] if len(arrays) == 1 else np.column_stack(arrays)
+
+
+def _read(path: str) -> Any:
+    """A table of arrays by name, with a ValueError in place of one of text; or a data set."""
+    suffix = Path(path).suffix.lower()
+    if path == "-":
+        return _read_text(sys.stdin)
+    with open(path, encoding="utf-8-sig", errors="replace", newline="") as file:
+        if suffix in _TEXT:
+            return _read_text(file)
+    if suffix == ".npy":
+        with open(path, "rb") as binary:
+            array = np.lib.format.read_array(binary)
+        if array.dtype.names:
+            return {name: array[name] for name in array.dtype.names}
+        if array.ndim != 2 or array.shape[1] < 3:
+            raise ValueError(f"its shape is {array.shape}, not (n, 4): x, y, z and value")
+        return dict(zip(_default_names(array.shape[1]), array.T))
+    if suffix == ".npz":
+        with zipfile.ZipFile(path), np.load(path) as archive:
+            return dict(archive)
+    if suffix == ".ply":
+        return _read_ply(path)
+    if importlib.util.find_spec("pyvista"):
+        import pyvista
+
+        logging.disable()  # of VTK's messages by PyVista
+        with pyvista.vtk_verbosity("off"):
+            data = pyvista.read(path)
+        if all(leaf.GetNumberOfElements(POINT) == 0 for leaf in _datasets.leaves(data)):
+            raise ValueError("VTK finds no points: it is empty, damaged, or not what its name says")
+        return data
+    if importlib.util.find_spec("meshio"):
+        import meshio
+
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+            try:
+                mesh = meshio.read(path)
+            except SystemExit:  # which it raises for damaged files
+                raise ValueError(said.getvalue()) from None
+        return {**mesh.point_data, "points": mesh.points}
+    raise ImportError(f"{path} needs PyVista or meshio: pip install pyvista; without them there are"
+                      f" {', '.join((*_TEXT, '.npy', '.npz', '.ply'))}")
+
+
+def _default_names(count: int) -> list[str]:
+    """Of columns without names."""
+    return ["x", "y", "z", *(["value"] if count == 4 else map(str, range(4, count + 1)))][:count]
+
+
+def _read_text(file: TextIO) -> dict[str, Any]:
+    """Columns between commas, semicolons, tabs or blanks, below a line of names, if there is one, perhaps in a
+    comment. Where commas do not separate, they may be decimal."""
+    head: list[str] = []  # up to the first line that is no comment
+    while not head or not head[-1].strip() or head[-1].startswith("#"):
+        head.append(file.readline())
+        if not head[-1]:
+            raise ValueError("it is empty")
+    delimiter = next((each for each in "\t;," if each in re.sub('"[^"]*"', "", head[-1])), " ")
+
+    def rows_of(lines: Any) -> Any:
+        tidy = ("" if line.startswith("#") else " ".join(line.split()) if delimiter == " " else line for line in lines)
+        reader = csv.reader(tidy, delimiter=delimiter, skipinitialspace=True)
+        return ((reader.line_num, row) for row in reader if "".join(row).strip())
+
+    def number(text: str) -> Optional[float]:
+        try:
+            return float(text if delimiter == "," else text.replace(",", "."))
+        except ValueError:
+            return math.nan if text.strip().lower() in _MISSING else None
+
+    rows = rows_of(chain(head, file))
+    first = next(rows)
+    names = [name.strip() for name in first[1]]
+    if None not in map(number, names):
+        rows = chain([first], rows)
+        comment = next((row for _, row in rows_of([line.lstrip("# ") for line in head[-2:-1]])), [])
+        names = [name.strip() for name in comment] if len(comment) == len(names) else _default_names(len(names))
+    columns: dict[str, Any] = {name: [np.zeros(0)] for name in names}
+    while chunk := list(islice(rows, 50_000)):
+        for line, row in chunk:
+            if len(row) != len(names):
+                raise ValueError(f"line {line} has {len(row)} entries instead of {len(names)}")
+        for name, *texts in zip(names, *(row for _, row in chunk)):
+            parsed = list(map(number, texts))
+            if None in parsed and isinstance(columns[name], list):
+                i = parsed.index(None)
+                columns[name] = ValueError(f'"{texts[i]}" in line {chunk[i][0]}, column "{name}", is no number')
+            elif isinstance(columns[name], list):
+                columns[name].append(np.array(parsed))
+    return {name: np.concatenate(parts) if isinstance(parts, list) else parts for name, parts in columns.items()}
+
+
+def _read_ply(path: str) -> dict[str, np.ndarray]:
+    """The properties of the vertices."""
+    header: list[list[str]] = []
+    with open(path, "rb") as file:
+        while header[-1:] != [["end_header"]] and len(header) < 1000:
+            header.append(file.readline().decode("ascii", "replace").split() or [""])
+        try:
+            order = {"ascii": "=", "binary_little_endian": "<", "binary_big_endian": ">"}[header[1][1]]
+            begin = next(i for i, words in enumerate(header) if words[0] == "element")
+            properties = list(takewhile(lambda words: words[0] == "property", header[begin + 1:]))
+            kind = np.dtype([(name, np.dtype(PLY_TYPES.get(each, each)).newbyteorder(order))
+                             for _, each, name in properties])
+            if header[0] != ["ply"] or header[begin][1] != "vertex":
+                raise ValueError
+            count = int(header[begin][2])
+        except (LookupError, StopIteration, TypeError, ValueError):
+            raise ValueError("it is no PLY file that begins with vertices of numbers") from None
+        table = (np.loadtxt(islice(file, count), kind, ndmin=1) if order == "=" else
+                 np.fromfile(file, kind, count))
+    if len(table) != count:
+        raise ValueError(f"it ends after {len(table)} of {count} vertices")
+    return {name: table[name] for name in kind.names}

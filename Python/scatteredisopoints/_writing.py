@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Files of isosurfaces, for the command line: see writer_for() and write_file()."""
+
+from __future__ import annotations
+
+import csv
+import importlib.util
+import os
+import zipfile
+from pathlib import Path
+from typing import Any, Callable, Iterator, Union
+
+import numpy as np
+
+from ._isosurface import Isosurface
+from ._reading import PLY_TYPES
+
+Writer = Callable[[str, Isosurface], Any]
+_OF_PYVISTA = (".vtk", ".vtp", ".vtu")
+
+
+def writer_for(path: str, are_triangles: bool) -> Writer:
+    """What writes points or triangles to a file with this ending. Raises ValueError if no installed package does."""
+    suffix = Path(path).suffix.lower()
+    if suffix == ".stl" and not are_triangles:
+        raise ValueError("STL files hold triangles alone: choose another format for points, such as .ply")
+    if suffix in _WRITERS:
+        return _WRITERS[suffix]
+    if suffix in _OF_PYVISTA and importlib.util.find_spec("pyvista"):
+        return _by_pyvista
+    if importlib.util.find_spec("meshio"):
+        import meshio
+
+        if suffix in meshio.extension_to_filetypes:
+            return _by_meshio
+    raise ValueError(f'the format of {path} is unknown: there are {", ".join(_WRITERS)}, with PyVista'
+                     f' {", ".join(_OF_PYVISTA)}, and those of meshio (pip install pyvista meshio)')
+
+
+def write_file(write: Writer, path: str, surface: Isosurface) -> None:
+    """Writes a file. If this fails, an earlier one stays as it was."""
+    path = os.path.realpath(path)
+    is_device = os.path.exists(path) and not os.path.isfile(path)
+    target = path if is_device else f"{path}.part{Path(path).suffix}"
+    try:
+        write(target, surface)
+        os.replace(target, path)
+    finally:
+        if target != path and os.path.exists(target):
+            os.unlink(target)
+
+
+def _columns(surface: Isosurface) -> Iterator[tuple[str, np.ndarray]]:
+    """Coordinates and the components of all arrays, as NAME:0."""
+    yield from zip("xyz", surface.points.T)
+    for name, array in surface.arrays.items():
+        flat = array.reshape(len(array), -1).T
+        yield from zip([name] if len(flat) == 1 else [f"{name}:{i}" for i in range(len(flat))], flat)
+
+
+def write_csv(path: Union[str, int], surface: Isosurface) -> None:
+    """Writes points and arrays to a file or to its descriptor."""
+    names, arrays = zip(*_columns(surface))
+    with open(path, "w", encoding="utf-8", newline="", closefd=isinstance(path, str)) as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(names)
+        # str() of a float32 is the shortest text that gives it.
+        writer.writerows(zip(*(map(str, array) if array.dtype == np.float32 else array.tolist() for array in arrays)))
+
+
+def _write_npz(path: str, surface: Isosurface) -> None:
+    # Not by np.savez(), which takes the names of arrays for its own parameters.
+    arrays = {**surface.arrays, **surface.cell_arrays, "points": surface.points, "triangles": surface.triangles}
+    with zipfile.ZipFile(path, "w") as archive:
+        for name in (name for name in arrays if arrays[name] is not None):
+            with archive.open(f"{name}.npy", "w", force_zip64=True) as entry:
+                np.lib.format.write_array(entry, np.ascontiguousarray(arrays[name]), allow_pickle=False)
+
+
+def _write_ply(path: str, surface: Isosurface) -> None:
+    types = {kind: name for name, kind in PLY_TYPES.items()}
+    usual = {f"Normals:{i}": "n" + axis for i, axis in enumerate("xyz")}
+    columns = {"_".join(usual.get(name, name).split()): array for name, array in _columns(surface)}
+    kinds = {name: array.dtype.str[1:] if array.dtype.str[1:] in types else "f8" for name, array in columns.items()}
+    vertices = np.empty(len(surface), [(name, "<" + kind) for name, kind in kinds.items()])
+    for name, array in columns.items():
+        vertices[name] = array
+    lines = ["ply", "format binary_little_endian 1.0", f"element vertex {len(surface)}",
+             *(f"property {types[kind]} {name}" for name, kind in kinds.items())]
+    faces = np.empty(0 if surface.triangles is None else len(surface.triangles), [("n", "u1"), ("corners", "<i4", 3)])
+    if surface.triangles is not None:
+        faces["n"], faces["corners"] = 3, surface.triangles
+        lines += [f"element face {len(faces)}", "property list uchar int vertex_indices"]
+    header = "\n".join([*lines, "end_header\n"]).encode("ascii", "replace")
+    Path(path).write_bytes(header + vertices.tobytes() + faces.tobytes())
+
+
+def _write_stl(path: str, surface: Isosurface) -> None:
+    corners = surface.points[surface.triangles].astype(np.float64)
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    facets = np.zeros(len(corners), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+    facets["normal"], facets["corners"] = normals / np.where(lengths > 0, lengths, 1), corners
+    Path(path).write_bytes(bytes(80) + np.array(len(facets), "<u4").tobytes() + facets.tobytes())
+
+
+def _write_obj(path: str, surface: Isosurface) -> None:
+    with open(path, "wb") as file:
+        np.savetxt(file, surface.points, "v %.9g %.9g %.9g")
+        if surface.triangles is not None:
+            np.savetxt(file, surface.triangles + 1, "f %d %d %d")
+
+
+_WRITERS: dict[str, Writer] = {
+    ".ply": _write_ply, ".stl": _write_stl, ".obj": _write_obj, ".npz": _write_npz, ".csv": write_csv}
+
+
+def _by_pyvista(path: str, surface: Isosurface) -> None:
+    import pyvista
+
+    data = pyvista.wrap(surface.polydata)
+    (data.cast_to_unstructured_grid() if path.lower().endswith(".vtu") else data).save(path)
+
+
+def _by_meshio(path: str, surface: Isosurface) -> None:
+    import meshio
+
+    cells = (("vertex", np.arange(len(surface))[:, None]) if surface.triangles is None else
+             ("triangle", surface.triangles))
+    of_cells = {name: [array] for name, array in surface.cell_arrays.items()}
+    meshio.Mesh(surface.points, [cells], surface.arrays, of_cells).write(path)
