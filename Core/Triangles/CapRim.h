@@ -24,6 +24,11 @@ public:
   CapRim(const Execution& execution, const SurfaceMesh& mesh,
     const std::vector<SurfaceTriangle>& caps, const std::vector<Vector>& positions);
 
+  bool isCap(std::size_t triangle) const
+  {
+    return !this->AreCaps.empty() && this->AreCaps[triangle] != 0;
+  }
+
   /// Whether a part may become one vertex: its rim, if any, is one path with at most one corner.
   bool isPath(const VertexParts& parts, std::size_t part) const;
 

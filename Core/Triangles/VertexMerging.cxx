@@ -238,7 +238,7 @@ private:
     {
       areMerged = contractibleParts(this->Exec, mesh, parts, std::move(areMerged));
     } while ((this->KeepsRim || this->HasCaps) &&
-             this->separateTurned(mesh, parts, places, former, areMerged));
+             this->separateTurned(mesh, parts, rim, places, former, areMerged));
     const auto isMerged = [&](std::size_t vertex)
     { return parts.partOf[vertex] != VertexParts::none && areMerged[parts.partOf[vertex]]; };
     // The lowest vertex of each merged part, and all others.
@@ -276,10 +276,11 @@ private:
     this->Result.positions = std::move(positions);
   }
 
-  /// Leaves parts apart that would turn triangles over, as they may next to a rim that stays.
+  /// Leaves parts apart that would turn triangles over: next to a rim that stays all, else those of
+  /// caps, which are flat.
   /// @returns whether there were any; their neighbors may be no longer contractible
-  bool separateTurned(const SurfaceMesh& mesh, const VertexParts& parts, const PartPlaces& places,
-    const std::vector<Vector>& former, std::vector<char>& areMerged) const
+  bool separateTurned(const SurfaceMesh& mesh, const VertexParts& parts, const CapRim& rim,
+    const PartPlaces& places, const std::vector<Vector>& former, std::vector<char>& areMerged) const
   {
     std::vector<Vector> means(parts.parts.size());
     forEachIndex(this->Exec, means.size(),
@@ -290,6 +291,10 @@ private:
       });
     const auto isTurned = [&](std::size_t triangle)
     {
+      if (!this->KeepsRim && !rim.isCap(triangle))
+      {
+        return false;
+      }
       std::array<Vector, 3> before;
       std::array<Vector, 3> after;
       std::array<std::size_t, 3> roots{}; // equal ones become one vertex
