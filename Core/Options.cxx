@@ -74,7 +74,7 @@ void checkOptions(const Options& options, OptionNaming naming)
       options.projection == static_cast<int>(FitOrder::Crease))
   {
     throw UsageError(naming(option::capping.name) + " has no creases: set " +
-                     naming(option::projection.name) + " to 3 or less.");
+                     naming(option::projection.name) + " to the cubic fit, 3, or less.");
   }
   if (options.triangles && options.capping &&
       (options.computeGradients || options.normalMethod == static_cast<int>(NormalMethod::Field)))

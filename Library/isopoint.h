@@ -158,8 +158,9 @@ typedef struct isopoint_options
   /* Triangles only: whether the surface is that of the body of the samples at or above the isovalue,
    * closed by caps where the samples end. Not with projection CREASE. */
   int32_t capping; /* Default: 0 */
-  /* Triangles only: pieces with less than this share of the area of an isovalue's largest piece are
-   * left out, such as droplets, but never bubbles: closed pieces with a negative volume. From 0 to 1. */
+  /* Triangles only: connected components with less than this share of the area of an isovalue's
+   * largest one are left out, such as droplets. With capping, bubbles, with a negative volume, stay
+   * unless they are within one that is left out. From 0 to 1. */
   double minimum_piece_size; /* Default: 0 */
 } isopoint_options;
 

@@ -12,8 +12,9 @@ namespace isopoint
 {
 
 /// Values computed on demand and shared by all threads, by index. Known values are read without a
-/// lock. Memory: 64 values for each aligned range of 64 indices with a known value, and a pointer
-/// for each range up to about eight times the greatest index.
+/// lock. Memory: 16 values for each aligned range of 16 indices with a known value, and a pointer
+/// for each range up to about four times the greatest index.
+/// @tparam T default constructible and copyable
 template <class T>
 class ConcurrentMemo
 {
@@ -40,7 +41,7 @@ public:
   }
 
 private:
-  static constexpr std::size_t blockSize = 64;
+  static constexpr std::size_t blockSize = 16;
 
   struct Block
   {
@@ -48,8 +49,8 @@ private:
     std::array<std::atomic<bool>, blockSize> isKnown{};
   };
 
-  /// Rows of blocks never move; each is eight times as long as the one before.
-  static constexpr std::size_t rowCount = 18;
+  /// Rows of blocks never move; each is four times as long as the one before.
+  static constexpr std::size_t rowCount = 27;
   static constexpr std::size_t firstRowSize = 1024;
   using Row = std::vector<std::atomic<Block*>>;
 
@@ -57,7 +58,7 @@ private:
   {
     std::size_t row = 0;
     std::size_t size = firstRowSize;
-    for (; number >= size; ++row, size *= 8)
+    for (; number >= size; ++row, size *= 4)
     {
       number -= size;
     }

@@ -84,8 +84,8 @@ struct IsosurfaceRequest
   /// Triangles only: whether the surface is that of the body of the samples at or above the
   /// isovalue, closed by caps where the samples end (docs/triangles.md). Not with creases.
   bool caps = false;
-  /// Triangles only: pieces with less than this share of the largest piece's area are dropped,
-  /// except for bubbles (see areOfSmallPieces()). From 0, for none, to 1.
+  /// Triangles only: connected components with less than this share of the largest one's area are
+  /// dropped, except for bubbles in bodies (see areOfSmallPieces()). From 0, for none, to 1.
   double minimumPieceSize = 0.0;
 };
 

@@ -31,7 +31,8 @@ inline constexpr std::uint8_t inBand = 1;
 /// of few samples.
 inline constexpr std::uint8_t reached = 2;
 
-/// Such a sphere may reach the region of this node, but not the bounding box of its samples.
+/// Such a sphere may reach the region of this node, but its samples are not needed: none is inside,
+/// or one farther beyond the hull was found.
 inline constexpr std::uint8_t missed = 4;
 
 } // namespace bandmarks
@@ -113,7 +114,7 @@ public:
   bool isAbove(int axis, double coordinate) const { return this->Beyond.isAbove(axis, coordinate); }
   Side sideOf(const Vector& position) const { return this->Beyond.sideOf(position); }
 
-  /// The sample farthest beyond the plane is a corner of the hull of all samples.
+  /// The farthest sample beyond the plane is on the hull of all samples.
   static constexpr bool isBestWanted = true;
   bool isBetter(const Vector& position) const
   {

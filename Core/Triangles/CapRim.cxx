@@ -20,7 +20,7 @@ CapRim::CapRim(const Execution& execution, const SurfaceMesh& mesh,
   }
 }
 
-bool CapRim::isPath(const VertexParts& parts, std::size_t part) const
+bool CapRim::isMergeable(const VertexParts& parts, std::size_t part) const
 {
   if (this->Kinds.empty())
   {
@@ -94,7 +94,7 @@ CapRim::Kind CapRim::kindAt(std::size_t vertex) const
 /// Whether caps at a vertex differ in direction.
 bool CapRim::isSharp(std::size_t vertex) const
 {
-  constexpr double minCosine = 0.866; // 30 degrees
+  constexpr double smoothRim = 0.866; // cosine of 30 degrees
   std::vector<Vector> normals;
   this->Mesh.outgoing().forEachAt(vertex,
     [&](HalfEdge side)
@@ -111,7 +111,7 @@ bool CapRim::isSharp(std::size_t vertex) const
     [&](const Vector& first)
     {
       return std::any_of(normals.begin(), normals.end(),
-        [&](const Vector& second) { return dot(first, second) < minCosine; });
+        [&](const Vector& second) { return dot(first, second) < smoothRim; });
     });
 }
 

@@ -30,7 +30,7 @@ public:
   }
 
   /// Whether a part may become one vertex: its rim, if any, is one path with at most one corner.
-  bool isPath(const VertexParts& parts, std::size_t part) const;
+  bool isMergeable(const VertexParts& parts, std::size_t part) const;
 
   /// The vertex of a part where it merges: on the rim, its corner, or else the one nearest to the
   /// mean. VertexParts::none for a part that is not on the rim.

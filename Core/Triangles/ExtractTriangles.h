@@ -10,6 +10,7 @@
 #include "Core/Extraction/NarrowBand.h"
 #include "Core/Tetrahedra/CrossingTetrahedra.h"
 #include "Core/Tetrahedra/KeptTetrahedra.h"
+#include "Core/Triangles/BodyOrientation.h"
 #include "Core/Triangles/BodySurface.h"
 #include "Core/Triangles/BodyTetrahedra.h"
 #include "Core/Triangles/CreaseMesh.h"
@@ -242,6 +243,7 @@ private:
       std::vector<SurfaceTriangle> others = mesh.triangles;
       dropMarked(this->Exec, areAmong(this->Exec, mesh.triangles, mesh.caps), others);
       keepTrianglesUpright(partOf(execution, 0.0, 0.5), mesh.positions, others, fits);
+      keepBodiesOriented(this->Exec, mesh.positions, mesh.triangles, mesh.caps, fits);
     }
     else if (isMoved)
     {
@@ -250,7 +252,13 @@ private:
     const std::vector<Vector> positions = this->positionsOf(mesh, fits);
     if (this->Request.regularizes)
     {
+      const std::vector<SurfaceTriangle> before =
+        this->Request.caps ? mesh.triangles : std::vector<SurfaceTriangle>();
       this->flipEdgesOf(mesh, positions, fits);
+      if (this->Request.caps)
+      {
+        revertInvertingFlips(this->Exec, positions, before, mesh.triangles);
+      }
     }
     std::vector<std::size_t> order = orderOfEdges(this->Exec, mesh);
     if (this->Request.minimumPieceSize > 0.0 && !mesh.triangles.empty())
@@ -319,8 +327,8 @@ private:
   /// Leaves vertices without triangles.
   void dropSmallPieces(EdgeTriangles<TSample>& mesh, const std::vector<Vector>& positions) const
   {
-    const std::vector<char> areSmall =
-      areOfSmallPieces(this->Exec, positions, mesh.triangles, this->Request.minimumPieceSize);
+    const std::vector<char> areSmall = areOfSmallPieces(
+      this->Exec, positions, mesh.triangles, this->Request.minimumPieceSize, this->Request.caps);
     const std::vector<char> areCaps = areAmong(this->Exec, mesh.triangles, mesh.caps);
     mesh.caps = chosenOf(this->Exec, mesh.triangles,
       itemsThat(this->Exec, areCaps.size(),

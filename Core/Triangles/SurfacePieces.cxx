@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/Triangles/SurfacePieces.h"
 
-#include "Core/Triangles/SurfaceMesh.h"
+#include "Core/Base/Lists.h"
+#include "Core/Base/Region.h"
 
 #include <algorithm>
-#include <cstddef>
+#include <cmath>
 #include <numeric>
 
 namespace isopoint
@@ -12,84 +13,167 @@ namespace isopoint
 namespace
 {
 
-/// Sets of vertices that are connected, each named by one of its vertices.
-class ConnectedVertices
+/// The solid angle of a triangle seen from a place, in full spheres: positive from behind [OS83].
+double solidAngle(const Vector& a, const Vector& b, const Vector& c)
+{
+  constexpr double fullSphere = 12.566370614359172;
+  const double lengthA = lengthOf(a);
+  const double lengthB = lengthOf(b);
+  const double lengthC = lengthOf(c);
+  const double divisor =
+    lengthA * lengthB * lengthC + dot(a, b) * lengthC + dot(b, c) * lengthA + dot(c, a) * lengthB;
+  return 2.0 * std::atan2(dot(a, cross(b, c)), divisor) / fullSphere;
+}
+
+class SmallPieces
 {
 public:
-  explicit ConnectedVertices(std::size_t count)
-    : Parents(count)
+  SmallPieces(const Execution& execution, const std::vector<Vector>& positions,
+    const std::vector<SurfaceTriangle>& triangles)
+    : Exec(execution)
+    , Positions(positions)
+    , Triangles(triangles)
+    , Pieces(execution, triangles, positions.size())
+    , Areas(positions.size(), 0.0)
+    , AreSmall(positions.size(), 0)
   {
-    std::iota(this->Parents.begin(), this->Parents.end(), std::size_t{ 0 });
+    forEachInOrder(execution, triangles.size(),
+      [this](std::size_t i)
+      {
+        const auto& [a, b, c] = this->Triangles[i];
+        this->Areas[this->Pieces.pieceOf[a]] +=
+          0.5 * lengthOf(cross(this->Positions[b] - this->Positions[a],
+                  this->Positions[c] - this->Positions[a]));
+      });
   }
 
-  std::size_t rootOf(std::size_t vertex)
+  std::vector<char> find(double share, bool areBodies)
   {
-    while (this->Parents[vertex] != vertex)
+    const double largest = *std::max_element(this->Areas.begin(), this->Areas.end());
+    std::vector<double> volumes(this->Areas.size(), 0.0);
+    if (areBodies)
     {
-      this->Parents[vertex] = this->Parents[this->Parents[vertex]];
-      vertex = this->Parents[vertex];
+      volumes = volumesOf(this->Exec, this->Pieces, this->Positions, this->Triangles);
     }
-    return vertex;
-  }
-
-  void unite(std::size_t a, std::size_t b)
-  {
-    const auto [low, high] = std::minmax({ this->rootOf(a), this->rootOf(b) });
-    this->Parents[high] = low;
+    forEachIndex(this->Exec, this->AreSmall.size(),
+      [&](std::size_t piece) {
+        this->AreSmall[piece] =
+          this->Areas[piece] < share * largest && volumes[piece] >= 0.0 ? 1 : 0;
+      });
+    std::vector<char> areBubbles(volumes.size(), 0);
+    forEachIndex(this->Exec, volumes.size(),
+      [&](std::size_t piece) { areBubbles[piece] = volumes[piece] < 0.0 ? 1 : 0; });
+    this->addBubbles(markedOf(this->Exec, areBubbles));
+    std::vector<char> marks(this->Triangles.size());
+    forEachIndex(this->Exec, marks.size(),
+      [&](std::size_t i) { marks[i] = this->AreSmall[this->pieceAt(i)]; });
+    return marks;
   }
 
 private:
-  std::vector<std::size_t> Parents; // itself for roots
-};
+  std::size_t pieceAt(std::size_t triangle) const
+  {
+    return this->Pieces.pieceOf[this->Triangles[triangle][0]];
+  }
 
-struct Piece
-{
-  double area = 0.0;
-  double volume = 0.0; // enclosed, if closed
-  bool isClosed = true;
+  /// Adds the bubbles within small pieces.
+  void addBubbles(const std::vector<std::size_t>& bubbles)
+  {
+    if (bubbles.empty())
+    {
+      return;
+    }
+    std::vector<Region> boxes(this->Positions.size(), emptyRegion); // by piece
+    forEachInOrder(this->Exec, this->Triangles.size(),
+      [&](std::size_t i)
+      {
+        for (const std::size_t vertex : this->Triangles[i])
+        {
+          Region& box = boxes[this->pieceAt(i)];
+          box = united(box, { this->Positions[vertex], this->Positions[vertex] });
+        }
+      });
+    std::vector<double> windings(bubbles.size(), 0.0); // around their first vertices
+    forEachIndex(this->Exec, bubbles.size(),
+      [&](std::size_t i)
+      {
+        const Vector& place = this->Positions[bubbles[i]];
+        for (std::size_t k = 0; k < this->Triangles.size(); ++k)
+        {
+          const std::size_t piece = this->pieceAt(k);
+          const Vector gap = gapTo(boxes[piece], place);
+          if (this->AreSmall[piece] && dot(gap, gap) == 0.0)
+          {
+            const auto& [a, b, c] = this->Triangles[k];
+            windings[i] += solidAngle(
+              this->Positions[a] - place, this->Positions[b] - place, this->Positions[c] - place);
+          }
+        }
+      });
+    for (std::size_t i = 0; i < bubbles.size(); ++i)
+    {
+      this->AreSmall[bubbles[i]] = windings[i] > 0.5 ? 1 : 0;
+    }
+  }
+
+  const Execution& Exec;
+  const std::vector<Vector>& Positions;
+  const std::vector<SurfaceTriangle>& Triangles;
+  SurfacePieces Pieces;
+  std::vector<double> Areas;  // by piece
+  std::vector<char> AreSmall; // likewise
 };
 
 } // namespace
 
-std::vector<char> areOfSmallPieces(const Execution& execution, const std::vector<Vector>& positions,
-  const std::vector<SurfaceTriangle>& triangles, double share)
+SurfacePieces::SurfacePieces(const Execution& execution,
+  const std::vector<SurfaceTriangle>& triangles, std::size_t vertexCount)
+  : pieceOf(vertexCount)
 {
-  const SurfaceMesh mesh(execution, triangles, positions.size());
-  ConnectedVertices connected(positions.size());
+  std::iota(this->pieceOf.begin(), this->pieceOf.end(), std::size_t{ 0 });
+  const auto rootOf = [this](std::size_t vertex)
+  {
+    while (this->pieceOf[vertex] != vertex)
+    {
+      this->pieceOf[vertex] = this->pieceOf[this->pieceOf[vertex]];
+      vertex = this->pieceOf[vertex];
+    }
+    return vertex;
+  };
   forEachInOrder(execution, triangles.size(),
     [&](std::size_t i)
     {
-      connected.unite(triangles[i][0], triangles[i][1]);
-      connected.unite(triangles[i][0], triangles[i][2]);
+      for (std::size_t k = 1; k < 3; ++k)
+      {
+        const auto [low, high] = std::minmax({ rootOf(triangles[i][0]), rootOf(triangles[i][k]) });
+        this->pieceOf[high] = low;
+      }
     });
-  std::vector<Piece> pieces(positions.size()); // by root
+  forEachInOrder(
+    execution, vertexCount, [&](std::size_t vertex) { this->pieceOf[vertex] = rootOf(vertex); });
+}
+
+std::vector<double> volumesOf(const Execution& execution, const SurfacePieces& pieces,
+  const std::vector<Vector>& positions, const std::vector<SurfaceTriangle>& triangles)
+{
+  std::vector<double> volumes(positions.size(), 0.0);
   forEachInOrder(execution, triangles.size(),
     [&](std::size_t i)
     {
       const auto& [a, b, c] = triangles[i];
-      const std::size_t root = connected.rootOf(a);
-      const Vector& origin = positions[root]; // near, so that no digits are lost
-      const Vector normal = cross(positions[b] - positions[a], positions[c] - positions[a]);
-      pieces[root].area += 0.5 * lengthOf(normal);
-      pieces[root].volume += dot(positions[a] - origin, normal) / 6.0;
-      for (std::size_t side = 3 * i; side < 3 * i + 3; ++side)
-      {
-        pieces[root].isClosed = pieces[root].isClosed && mesh.twinOf(side) != noHalfEdge;
-      }
+      const std::size_t piece = pieces.pieceOf[a];
+      const Vector& origin = positions[piece]; // near, so that no digits are lost
+      volumes[piece] += dot(positions[a] - origin,
+                          cross(positions[b] - positions[a], positions[c] - positions[a])) /
+                        6.0;
     });
-  const double largest = std::max_element(pieces.begin(), pieces.end(),
-    [](const Piece& a, const Piece& b) {
-      return a.area < b.area;
-    })->area;
-  std::vector<char> marks(triangles.size(), 0);
-  forEachInOrder(execution, triangles.size(),
-    [&](std::size_t i)
-    {
-      const Piece& own = pieces[connected.rootOf(triangles[i][0])];
-      const bool isBubble = own.isClosed && own.volume < 0.0;
-      marks[i] = own.area < share * largest && !isBubble ? 1 : 0;
-    });
-  return marks;
+  return volumes;
+}
+
+std::vector<char> areOfSmallPieces(const Execution& execution, const std::vector<Vector>& positions,
+  const std::vector<SurfaceTriangle>& triangles, double share, bool areBodies)
+{
+  return SmallPieces(execution, positions, triangles).find(share, areBodies);
 }
 
 } // namespace isopoint

@@ -3,6 +3,7 @@
 
 #include "Core/Base/Lists.h"
 #include "Core/Extraction/Isosurface.h"
+#include "Core/Triangles/BodyOrientation.h"
 #include "Core/Triangles/CapRim.h"
 #include "Core/Triangles/EdgeFlipping.h"
 #include "Core/Triangles/ShortEdges.h"
@@ -233,7 +234,7 @@ private:
     const PartPlaces places(mesh, rim, parts, former, this->Result.memberBegins);
     std::vector<char> areMerged(parts.size());
     forEachIndex(this->Exec, parts.size(),
-      [&](std::size_t part) { areMerged[part] = rim.isPath(parts, part) ? 1 : 0; });
+      [&](std::size_t part) { areMerged[part] = rim.isMergeable(parts, part) ? 1 : 0; });
     do
     {
       areMerged = contractibleParts(this->Exec, mesh, parts, std::move(areMerged));
@@ -455,7 +456,13 @@ private:
 
 MergedTriangles mergeVertices(const Execution& execution, MergeableTriangles triangles)
 {
-  return VertexMerger(execution, std::move(triangles)).merge();
+  if (triangles.caps.empty())
+  {
+    return VertexMerger(execution, std::move(triangles)).merge();
+  }
+  MergedTriangles merged = VertexMerger(execution, triangles).merge();
+  restoreInvertedPieces(execution, triangles, merged);
+  return merged;
 }
 
 } // namespace isopoint

@@ -37,9 +37,10 @@ struct MergedTriangles
 };
 
 /// Merges crossings to about one vertex per sample next to the surface ([TPG99]), and then short
-/// edges, if the topology allows: docs/triangles.md, "Regularization". The result depends only on
-/// the order of vertices and triangles. O(n log n)
-/// Triangles between three kept vertices stay, and the shape of caps: see CapRim.
+/// edges, if the topology allows: docs/triangles.md, "Regularization". Triangles between three kept
+/// vertices stay, and the shape of caps: see CapRim. The result depends only on the order of
+/// vertices and triangles.
+/// Complexity: O(n log n)
 /// @throws std::bad_alloc, Aborted
 MergedTriangles mergeVertices(const Execution& execution, MergeableTriangles triangles);
 

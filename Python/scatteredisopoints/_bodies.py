@@ -42,7 +42,7 @@ def body_of(samples: Samples, arrays: Any, threads: Optional[int], progress: Pro
     texts = list(samples._describe_left_out(skipped))
     if arrays is None and samples._differing:
         texts.append(_datasets.describe_differing(samples._differing))
-    body = samples._as_isosurface(surface, found, chosen, threads)
+    body = samples._as_isosurface(surface, found, [-math.inf], chosen, threads)
     if len(body) == 0:
         texts.append("There is no body: the samples are in one plane, or fewer than four.")
     for text in texts:

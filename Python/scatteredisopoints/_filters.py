@@ -61,10 +61,10 @@ def filtered(
     output.ShallowCopy(isopoints.GetOutput())
     if is_of_pyvista(source):
         output = importlib.import_module("pyvista").PolyData(output)
-    return _isosurface(output, triangles)
+    return _isosurface(output, triangles, isovalues)
 
 
-def _isosurface(data: vtkPolyData, are_triangles: bool) -> Isosurface:
+def _isosurface(data: vtkPolyData, are_triangles: bool, levels: list[float]) -> Isosurface:
     triangles = None
     if are_triangles:
         triangles = as_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)
@@ -74,7 +74,7 @@ def _isosurface(data: vtkPolyData, are_triangles: bool) -> Isosurface:
     maker = PolyDataMaker("vtkmodules", is_of_pyvista(data), scalars and scalars.GetName())
     caps = {name: of_cells.pop(name) for name in ("IsCap",) if name in of_cells}
     return Isosurface(as_numpy(point_positions(data)), triangles, of_points, of_cells, maker, data, cell_arrays=caps,
-                      isovalues=None if scalars is None else as_numpy(scalars))
+                      levels=levels)
 
 
 def _cloud(positions: Any, values: Any, arrays: Optional[Mapping[str, Any]]) -> vtkPolyData:

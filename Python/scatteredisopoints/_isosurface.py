@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from ctypes import byref, c_void_p
-from typing import Any, Callable, Mapping, Optional, Union
+from typing import Any, Callable, Iterable, Mapping, Optional, Union
 
 import numpy as np
 
@@ -45,6 +46,7 @@ class Isosurface:
         polydata: Any = None,
         threads: Optional[int] = None,
         cell_arrays: Optional[Mapping[str, np.ndarray]] = None,
+        levels: Iterable[float] = (math.nan,),
         isovalues: Optional[np.ndarray] = None,
     ):
         self.points = points
@@ -55,7 +57,8 @@ class Isosurface:
         self._make_polydata = make_polydata
         self._polydata = polydata
         self._threads = threads
-        self._isovalues = isovalues  # of points
+        self._levels = sorted({*levels})
+        self._isovalues = isovalues  # of points; None for one level
         self._measures: Optional[Measures] = None
 
     def __getstate__(self) -> dict[str, Any]:
@@ -88,9 +91,9 @@ class Isosurface:
         return self._polydata
 
     @property
-    def pieces(self) -> list[Piece]:
-        """The connected pieces of triangles, largest area first: isovalue, area, and volume, which is negative for
-        bubbles and NaN for open pieces. Raises ValueError for points."""
+    def pieces(self) -> tuple[Piece, ...]:
+        """The connected components of the triangles, largest area first: isovalue, area, and volume. Raises ValueError
+        for points."""
         return self._measured().pieces
 
     @property
@@ -100,33 +103,38 @@ class Isosurface:
 
     @property
     def area(self) -> Union[float, np.ndarray]:
-        """The area, in the square of the unit of positions; of several isovalues with triangles, the area of each,
-        ascending by isovalue."""
-        return self._sums([piece.area for piece in self.pieces])
+        """The area of the triangles, in the square of the unit of positions; if there are several isovalues, of each,
+        ascending."""
+        return self._sums("area")
 
     @property
     def volume(self) -> Union[float, np.ndarray]:
-        """The volume within closed triangles, in the cube of the unit of positions, as :attr:`area`; bubbles are
-        subtracted. NaN, with a warning, if a piece is open."""
-        volumes = self._sums([piece.volume for piece in self.pieces])
+        """The volume within the triangles, in the cube of the unit of positions; if there are several isovalues, of
+        each, ascending. The sum of the volumes of the pieces: bubbles are subtracted. NaN, with a warning, unless each
+        edge has exactly two triangles."""
+        volumes = self._sums("volume")
         if np.isnan(volumes).any():
-            warnings.warn("The surface is open, so it has no volume: extract it with capping=True.", RuntimeWarning,
-                          stacklevel=2)
+            warnings.warn("Not every edge has exactly two triangles, so there is no volume: extract the surface with"
+                          " capping=True.", RuntimeWarning, stacklevel=2)
         return volumes
 
     def _measured(self) -> Measures:
         if self.triangles is None:
             raise ValueError("Points have no area: extract triangles.")
+        if len(self._levels) > 1 and self._isovalues is None:
+            raise ValueError("The isovalue of each triangle is unknown: with a controller, contour one isovalue at a"
+                             " time.")
         if self._measures is None:
-            self._measures = measure(self.points, self.triangles, self._isovalues)
+            isovalues = np.full(len(self), self._levels[0]) if self._isovalues is None else self._isovalues
+            self._measures = measure(self.points, self.triangles, isovalues, "IsCap" not in self.cell_arrays)
         return self._measures
 
-    def _sums(self, numbers: list[float]) -> Union[float, np.ndarray]:
+    def _sums(self, name: str) -> Union[float, np.ndarray]:
         """The sums over the pieces of each isovalue."""
-        levels, places = np.unique([piece.isovalue for piece in self.pieces], return_inverse=True)
-        if len(levels) <= 1:
-            return float(sum(numbers))
-        return np.bincount(places.reshape(-1), numbers)
+        sums = np.zeros(len(self._levels))
+        for piece in self.pieces:
+            sums[self._levels.index(piece.isovalue) if len(sums) > 1 else 0] += getattr(piece, name)
+        return float(sums[0]) if len(sums) == 1 else sums
 
     def splats(
         self, scale: float = 1.0, *, threads: Optional[int] = None, progress: Progress = None

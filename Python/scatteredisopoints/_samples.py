@@ -282,7 +282,7 @@ class Samples:
             " it or switch the computed array off.", is_warning=True, cause=f"replaced array {name}")
             for name in computed if name in found]
         found.update(computed)
-        return Extracted(self._as_isosurface(surface, found, chosen, threads), surface, messages)
+        return Extracted(self._as_isosurface(surface, found, levels, chosen, threads), surface, messages)
 
     def _surface(self, levels: list[float], options: _library.Options, callbacks: Mapping[str, Any]
                  ) -> _library.Surface:
@@ -494,7 +494,7 @@ class Samples:
         at_samples = np.equal(*_library.view(surface, _library.EDGES).T)
         return np.where(at_samples, self._interpolated(surface, {"": values}, is_canceled)[""], isovalues)
 
-    def _as_isosurface(self, surface, arrays, options: _library.Options, threads: Optional[int]) -> Isosurface:
+    def _as_isosurface(self, surface, arrays, levels, options: _library.Options, threads: Optional[int]) -> Isosurface:
         triangles, shapes = None, {}
         if options.triangles:
             triangles = _library.view(surface, _library.TRIANGLES)
@@ -504,7 +504,7 @@ class Samples:
         maker = self._maker if options.compute_normals else replace(self._maker, normals=None)
         caps = {"IsCap": _library.view(surface, _library.CAPS)} if options.capping else {}
         return Isosurface(_library.view(surface, _library.POINTS), triangles, arrays, shapes, maker, threads=threads,
-                          cell_arrays=caps, isovalues=_library.view(surface, _library.ISOVALUES))
+                          cell_arrays=caps, levels=levels, isovalues=_library.view(surface, _library.ISOVALUES))
 
 
 _all: weakref.WeakSet[Samples] = weakref.WeakSet()

@@ -58,8 +58,8 @@ def contour(
         output_points_precision="SINGLE_PRECISION" (or "DOUBLE_PRECISION"). Of points only: minimum_spacing=0.5,
         compute_splats=False, angle=54.7, number_of_neighbors=12. Of triangles only: regularize=False;
         capping=True, which closes the body of the samples at or above the isovalue where they end; and
-        minimum_piece_size=0.01, the least area of pieces as a share of the largest one's, which leaves out droplets
-        but no bubbles.
+        minimum_piece_size=0.01, the least area of a connected component as a share of the largest one's, which leaves
+        out droplets and what is in them.
 
         With MPI, each process contours its own samples unless `controller` is given, which needs the compiled
         VTK classes: then all ranks must make this call, and only the first one raises errors.
@@ -97,11 +97,15 @@ def contour(
     if data is None and values is None:
         raise TypeError("values are missing: one for each position")
     controller = options.get("controller")
-    if controller is not None or (threads is None and data is not None and package_of(data) == "vtkmodules"):
+    levels = isovalues_of(isovalues)
+    # The filters' output does not tell the isovalue of each triangle, which areas and volumes need.
+    is_told = not triangles or len(set(levels)) <= 1
+    if controller is not None or (
+            threads is None and is_told and data is not None and package_of(data) == "vtkmodules"):
         filters = compiled_filters()
         if filters is not None:
             return filters.filtered(positions if data is None else data, values,
-                                    isovalues_of(isovalues), triangles, arrays, progress, options)
+                                    levels, triangles, arrays, progress, options)
         if controller is not None:
             raise TypeError("The option controller needs the compiled VTK classes: build this project"
                             " with VTK, as docs/installing.md in its source says.")
@@ -109,7 +113,7 @@ def contour(
     with shown_progress(progress, "Contouring") as report:
         samples = Samples(positions, values, threads=threads, progress=part(report, 0.0, 0.5))
         return samples._contour(
-            isovalues, triangles, arrays, None, part(report, 0.5, 1.0), options, stacklevel=3)
+            levels, triangles, arrays, None, part(report, 0.5, 1.0), options, stacklevel=3)
 
 
 def body(

@@ -2,11 +2,15 @@
 // Lists that threads make together, and selection, against their definitions.
 #include "Clouds.h"
 
+#include "Core/Base/ConcurrentMemo.h"
 #include "Core/Base/Lists.h"
 #include "Core/Fit/Selection.h"
 #include "Core/Neighbors/NeighborhoodCache.h"
 
 #include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
 
 namespace
 {
@@ -140,4 +144,25 @@ TEST(Selection, EndsWithNumbersThatAreNone)
   EXPECT_EQ(infinity, isopoint::selectNth(infinite.data(), infinite.size(), 25));
   std::vector<double> numbers(50, none);
   EXPECT_TRUE(std::isnan(isopoint::selectNth(numbers.data(), numbers.size(), 25)));
+}
+
+/// At the borders of blocks and rows, from several threads.
+TEST(ConcurrentMemo, KeepsTheFirstValueOfEachIndex)
+{
+  isopoint::ConcurrentMemo<std::size_t> memo;
+  EXPECT_THROW(
+    memo.at(5, []() -> std::size_t { throw std::runtime_error("fails"); }), std::runtime_error);
+  const Numbers indices{ 0, 5, 15, 16, 16383, 16384, 81919, 81920, 1000000 };
+  std::atomic<std::size_t> wrong{ 0 };
+  isopoint::forEachIndex(clouds::executionOn(3), 100000,
+    [&](std::size_t i)
+    {
+      const std::size_t index = indices[i % indices.size()];
+      wrong += memo.at(index, [index]() { return 3 * index; }) != 3 * index ? 1 : 0;
+    });
+  EXPECT_EQ(wrong, 0u);
+  for (const std::size_t index : indices)
+  {
+    EXPECT_EQ(memo.at(index, []() -> std::size_t { return 1; }), 3 * index);
+  }
 }

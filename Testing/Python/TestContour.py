@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """contour() yields what the filters do, for arrays and for data sets. TestPackage.py has what needs no VTK."""
 
+import pickle
 import unittest
 import warnings
 
@@ -95,7 +96,7 @@ class ContourTest(unittest.TestCase):
         for result in (contour(positions, -values, -0.55, capping=True, arrays={"large": large}, **exact),
                        contour(data, None, -0.55, capping=True, **exact)):
             np.testing.assert_array_equal(result.arrays["large"][at_samples], large[found])
-        for wrong, text in ((dict(projection="CREASE_FIT"), "capping has no creases: set projection to 3 or less"),
+        for wrong, text in ((dict(projection="CREASE_FIT"), "capping has no creases: set projection to the cubic fit"),
                             (dict(compute_gradients=True), "capping has no gradients"),
                             (dict(normal_method="normals_from_field"), "capping has no gradients")):
             with self.assertRaisesRegex(ValueError, text):
@@ -110,9 +111,12 @@ class ContourTest(unittest.TestCase):
         """A hollow ball and a droplet, by arrays and by a data set."""
         positions = np.random.default_rng(4).random((60000, 3))
         distance = np.linalg.norm(positions - 0.35, axis=1)
-        values = np.maximum(np.minimum(0.3 - distance, distance - 0.1),
-                            0.09 - np.linalg.norm(positions - 0.8, axis=1))
+        far = np.linalg.norm(positions - 0.8, axis=1)
+        values = np.maximum(np.minimum(0.3 - distance, distance - 0.1), 0.09 - far)
         data = cloud_of(positions, values)
+        hollow = np.maximum(0.3 - distance, np.minimum(0.15 - far, far - 0.07))
+        ball, = contour(positions, hollow, 0.0, triangles=True, capping=True, minimum_piece_size=0.3).pieces
+        self.assertAlmostEqual(ball.volume, 4 / 3 * np.pi * 0.3**3, 2)  # neither the shell nor its bubble
         for of, threads in ((positions, values), None), ((data, None), None), ((data, None), 2):
             whole = contour(*of, 0.0, triangles=True, capping=True, threads=threads)
             radii = np.array([0.3, 0.1, 0.09])
@@ -128,13 +132,26 @@ class ContourTest(unittest.TestCase):
                 np.testing.assert_array_equal(pieces_of[ends], np.tile(whole.region_ids, 3))
             large = contour(*of, 0.0, triangles=True, capping=True, minimum_piece_size=0.2, threads=threads)
             self.assertEqual([piece.volume > 0 for piece in large.pieces], [True, False])
-        several = contour(positions, -distance, (-0.2, -0.3), triangles=True)
-        np.testing.assert_allclose(several.volume, 4 / 3 * np.pi * np.array([0.3, 0.2])**3, rtol=0.03)
-        np.testing.assert_allclose(several.area, 4 * np.pi * np.array([0.3, 0.2])**2, rtol=0.03)
-        with self.assertWarnsRegex(RuntimeWarning, "The surface is open, so it has no volume: extract it with capping"):
+        for of, threads in ((positions, -distance), None), ((cloud_of(positions, -distance), None), None):
+            several = contour(*of, (-0.2, -0.3, 5.0), triangles=True, capping=True, threads=threads)
+            np.testing.assert_allclose(several.volume, 4 / 3 * np.pi * np.array([0.3, 0.2, 0.0])**3, rtol=0.03)
+            np.testing.assert_allclose(several.area, 4 * np.pi * np.array([0.3, 0.2, 0.0])**2, rtol=0.03)
+        slab = positions[np.abs(positions[:, 0] - 0.5) > 0.1]  # pieces of caps alone
+        bodies = contour(cloud_of(slab, slab[:, 0]), None, [-np.inf, 0.55], triangles=True, capping=True)
+        self.assertEqual([piece.isovalue for piece in bodies.pieces].count(0.55), 1)
+        np.testing.assert_allclose(bodies.volume, [0.8, 0.4], rtol=0.05)
+        with self.assertWarnsRegex(RuntimeWarning, "Not every edge has exactly two triangles, so there is no volume"):
             self.assertTrue(np.isnan(contour(positions, distance, 0.5, triangles=True).volume))
-        self.assertEqual(contour(positions, distance, 0.2, triangles=True, capping=True, minimum_piece_size=1).volume,
-                         contour(positions, distance, 0.2, triangles=True, capping=True).volume)
+        inwards = 0.3 - np.abs(positions - 0.5).max(axis=1)
+        cube = contour(positions, inwards, 0.0, triangles=True, projection="CREASE_FIT")
+        self.assertEqual(len(cube.pieces), 1)  # though points on creases are repeated
+        self.assertAlmostEqual(cube.volume, 0.216, 3)
+        flat = np.array([[1, 3, 0], [3, 1, 2], [0, 2, 2], [2, 0, 3.0]])  # merging alone would turn it inside out
+        self.assertGreater(contour(flat, [1, 1, 4, 4], 3.5, triangles=True, capping=True).volume, 0)
+        again = pickle.loads(pickle.dumps(cube))
+        self.assertEqual(again.pieces, cube.pieces)
+        ball, = contour(positions, np.minimum(distance, far + 0.06), 0.2, triangles=True, minimum_piece_size=0.9).pieces
+        self.assertLess(ball.volume, 0)  # without caps a size counts, but no sign
         with self.assertRaisesRegex(ValueError, "Points have no area: extract triangles"):
             contour(positions, distance, 0.2).pieces
         with self.assertRaisesRegex(ValueError, "minimum_piece_size is 2, which is out of range"):
