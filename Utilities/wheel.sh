@@ -3,16 +3,18 @@
 # Builds wheels of the Python package that run on many systems; see the usage below.
 set -euo pipefail
 
-architectures=(x86_64 aarch64)
+platforms=(x86_64 aarch64 win_amd64 macosx_11_0_arm64 macosx_10_15_x86_64)
 
 usage()
 {
   cat << END
-usage: $0 FOLDER [ARCHITECTURE...]
+usage: $0 FOLDER [PLATFORM...]
 Makes a bare root of Debian 11 below FOLDER with debootstrap, unless it is there, and in it builds a wheel
-of what is committed for each architecture, tries it, and copies it to dist. The wheels need glibc 2.28 or
-later, and NumPy; all else is linked statically. Needs root, debootstrap, git and 3 GiB. Ten minutes on two
-cores. Architectures, both by default: ${architectures[*]}
+of what is committed for each platform, tries it as far as this machine can, and copies it to dist. Those
+for Linux, x86_64 and aarch64, need glibc 2.28 or later. Those for Windows and macOS are made from that for
+x86_64, which is built with them. All need NumPy; all else is linked statically.
+Needs root, debootstrap, git and 6 GiB. Half an hour on two cores.
+Platforms, all by default: ${platforms[*]}
 END
 }
 
@@ -26,7 +28,18 @@ if (($# == 0)) || ((EUID != 0)); then
 fi
 folder=$(realpath "$1")
 shift
-(($# == 0)) || architectures=("$@")
+(($# == 0)) || platforms=("$@")
+linux=()
+others=()
+for platform in "${platforms[@]}"; do
+  case $platform in
+    win_* | macosx_*) others+=("$platform") ;;
+    *) linux+=("$platform") ;;
+  esac
+done
+if ((${#others[@]} > 0)) && [[ " ${linux[*]} " != *' x86_64 '* ]]; then
+  linux=(x86_64 "${linux[@]}")
+fi
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source Utilities/roots.sh
 source Utilities/steps.sh
@@ -37,7 +50,11 @@ step "Making $root" make_root bullseye "$root"
 cp /etc/ssl/certs/ca-certificates.crt "$root/root/certificates"
 rm -rf "$root/root/source"
 git clone --quiet . "$root/root/source"
-run_in_root "$root" "cd /root/source && PIP_CERT=/root/certificates Utilities/wheel_in_root.sh ${architectures[*]}"
+commands="cd /root/source && export PIP_CERT=/root/certificates && Utilities/wheel_in_root.sh ${linux[*]}"
+if ((${#others[@]} > 0)); then
+  commands+=" && Utilities/wheel_elsewhere.sh ${others[*]}"
+fi
+run_in_root "$root" "$commands"
 mkdir -p dist
 cp "$root"/root/source/dist/*.whl dist/
 ls -l dist/*.whl

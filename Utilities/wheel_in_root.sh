@@ -157,8 +157,9 @@ build_wheel()
     -DTBB_DIR="$folder/oneTBB-$1/lib/cmake/TBB"
     -DCGAL_DISABLE_GMP=ON # CGAL has exact numbers of its own
   )
-  rm -rf "$folder/wheel-$1"
-  CMAKE_ARGS=${options[*]} _PYTHON_HOST_PLATFORM=linux-$1 pip wheel --quiet --no-deps --no-build-isolation \
+  rm -rf "$folder"/{build,wheel}-"$1"
+  SKBUILD_BUILD_DIR=$folder/build-$1 CMAKE_ARGS=${options[*]} _PYTHON_HOST_PLATFORM=linux-$1 \
+    pip wheel --quiet --no-deps --no-build-isolation \
     --wheel-dir "$folder/wheel-$1" . > "$folder/wheel-$1.log" 2>&1 || {
     cat "$folder/wheel-$1.log" >&2
     return 1

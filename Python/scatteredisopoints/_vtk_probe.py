@@ -206,7 +206,9 @@ class vtkScatteredLineFilter(vtkScatteredProbeFilter):
         shares = np.arange(count) / self._values["Resolution"]
         points, lines = vtkPoints(), vtkCellArray()
         points.SetData(as_vtk(PACKAGE, "Points", (1.0 - shares[:, None]) * begin + shares[:, None] * end))
-        lines.SetData(*(numpy_to_vtkIdTypeArray(ids, deep=True) for ids in (np.array([0, count]), np.arange(count))))
+        # NumPy 1 makes 32-bit integers on Windows.
+        lines.SetData(*(numpy_to_vtkIdTypeArray(np.asarray(ids, np.int64), deep=True)
+                        for ids in ([0, count], np.arange(count))))
         output.SetPoints(points)
         output.SetLines(lines)
         output.GetPointData().AddArray(as_vtk(PACKAGE, LINE_LENGTH, shares * _length(end - begin)))

@@ -18,8 +18,10 @@
 #include <utility>
 #include <vector>
 
+#ifndef _WIN32
 #include <sys/wait.h>
 #include <unistd.h>
+#endif
 
 namespace
 {
@@ -141,6 +143,7 @@ void expectContains(const std::string& text, const std::string& part)
   EXPECT_NE(text.find(part), std::string::npos) << text;
 }
 
+#ifndef _WIN32
 /// Expects that something holds in a forked process, which must not wait for ever.
 void expectInFork(const std::function<bool()>& holds)
 {
@@ -154,6 +157,7 @@ void expectInFork(const std::function<bool()>& holds)
   waitpid(process, &status, 0);
   EXPECT_EQ(status, 0);
 }
+#endif
 
 /// Expects an error that names a word.
 void expectInvalid(isopoint_status status, const std::string& word = "")
@@ -828,6 +832,8 @@ TEST(Library, TwoExtractorsWorkOnTwoThreads)
   EXPECT_EQ(bytes[0], bytes[1]);
 }
 
+#ifndef _WIN32
+
 TEST(Library, ForkedProcessesMakeTheSameSurfaces)
 {
   const Extractor extractor{ Cloud(20000) };
@@ -867,6 +873,8 @@ TEST(Library, CallsFailInProcessesForkedDuringACall)
   EXPECT_TRUE(hasForked);
   extractor.extract();
 }
+
+#endif
 
 TEST(Library, ErrorsAreThoseOfTheThread)
 {

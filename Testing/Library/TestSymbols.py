@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The C library exports exactly the functions of its header: TestSymbols.py LIBRARY HEADER"""
+"""The C library exports exactly the functions of its header: TestSymbols.py LIBRARY HEADER
+
+LLVM's tools read those for Windows and macOS.
+"""
 
 import pathlib
 import re
@@ -9,10 +12,20 @@ import sys
 path, header = sys.argv[1:]
 text = re.sub(r"/\*.*?\*/", "", pathlib.Path(header).read_text(), flags=re.DOTALL)
 declared = set(re.findall(r"^ISOPOINT_API[^;(]*?(\w+)\(", text, re.MULTILINE))
-listed = subprocess.run(["nm", "--dynamic", "--defined-only", path], stdout=subprocess.PIPE, check=True,
-                        universal_newlines=True).stdout
-exported = {line.split()[-1].split("@")[0] for line in listed.splitlines()}
-exported.discard("ISOPOINT_1")  # the version of the symbols
+
+
+def printed(*command):
+    return subprocess.run([*command, path], stdout=subprocess.PIPE, check=True, universal_newlines=True).stdout
+
+
+if path.endswith(".dll"):
+    exported = set(re.findall(r"^ +Name: (\w+)$", printed("llvm-readobj", "--coff-exports"), re.MULTILINE))
+elif path.endswith(".dylib"):
+    exported = set(re.findall(r" _(\w+)$", printed("llvm-nm", "--extern-only", "--defined-only"), re.MULTILINE))
+    exported -= {"__dso_handle", "_mh_dylib_header"}  # the linker's
+else:
+    exported = {line.split()[-1].split("@")[0] for line in printed("nm", "--dynamic", "--defined-only").splitlines()}
+    exported.discard("ISOPOINT_1")  # the version of the symbols
 if len(declared) < 15 or exported != declared:
     sys.exit(f"failed: exported but not declared {sorted(exported - declared)}, "
              f"declared but not exported {sorted(declared - exported)}")

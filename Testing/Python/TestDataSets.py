@@ -245,7 +245,7 @@ class DataSetsTest(unittest.TestCase):
         np.testing.assert_array_equal(again.points, surface.points)
 
         def interrupt(_fraction):
-            os.kill(os.getpid(), signal.SIGINT)
+            signal.raise_signal(signal.SIGINT)
 
         signal.signal(signal.SIGINT, signal.default_int_handler)
         with self.assertRaises(KeyboardInterrupt):

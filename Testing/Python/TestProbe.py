@@ -234,7 +234,7 @@ class Calls(unittest.TestCase):
             self.assertEqual((fractions, fractions[-1]), (sorted(fractions), 1))
             self.assertGreater(len(fractions), 3)
             with self.assertRaises(KeyboardInterrupt):
-                call(lambda fraction: fraction > 0.3 and os.kill(os.getpid(), signal.SIGINT))
+                call(lambda fraction: fraction > 0.3 and signal.raise_signal(signal.SIGINT))
             with self.assertRaises(ZeroDivisionError):
                 call(lambda fraction: fraction > 0.3 and 1 / 0)
         samples = Samples(POSITIONS)

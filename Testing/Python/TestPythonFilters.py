@@ -56,6 +56,26 @@ class PythonFilters(unittest.TestCase):
                         getattr(filter_, "Set" + name)(value)
                     self.assertEqual(*(getattr(filter_, "Get" + name)() for filter_ in pair), (name, value))
 
+    def test_integers_of_windows(self):
+        """NumPy 1 makes 32-bit integers there."""
+        made = {name: getattr(np, name) for name in ("arange", "array")}
+
+        def narrow(name):
+            def make(*arguments, **options):
+                result = made[name](*arguments, **options)
+                is_chosen = "dtype" in options or len(arguments) > 1
+                return result.astype(np.int32) if result.dtype == np.int64 and not is_chosen else result
+            return make
+
+        for name, isovalues in (("vtkScatteredIsopointFilter", [0.3]), ("vtkScatteredIsosurfaceFilter", [0.3]),
+                                ("vtkScatteredLineFilter", ())):
+            filter_ = configured(getattr(_vtk, name), cloud(), isovalues)
+            texts = observed(filter_)
+            with mock.patch.multiple(np, **{each: narrow(each) for each in made}):
+                filter_.Update()
+            self.assertEqual(texts["ErrorEvent"], [], name)
+            assert_same(self, filter_.GetOutput(), updated(getattr(_vtk, name), cloud(), isovalues).GetOutput())
+
     def values_for(self, property_):
         if isinstance(property_.default, tuple):
             return [[type(each)(i - 2) for i, each in enumerate(property_.default)]]

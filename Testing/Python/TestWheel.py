@@ -9,10 +9,12 @@ that runs this can import. Ends with 77, which says that the test is skipped, if
 import os
 import pathlib
 import re
+import runpy
 import shutil
 import subprocess
 import sys
 import tarfile
+import zipfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TESTS = ROOT / "Testing/Python"
@@ -109,6 +111,39 @@ def check_source_archive(builder, folder):
         sys.exit(f"failed: the description has links to files, or lacks a section\n{description}")
 
 
+def check_other_systems(builder, wheel, folder):
+    """What Utilities/wheel.sh makes from a wheel for Linux is what pip installs on other systems. The libraries are
+    stand-ins: their own checks are those of Utilities/wheel_elsewhere.sh."""
+    libraries = {"win_amd64": "isopoint.dll", "macosx_11_0_arm64": "libisopoint.dylib",
+                 "macosx_10_15_x86_64": "libisopoint.dylib"}
+    linux = folder / wheel.name
+    shutil.copy(wheel, linux)
+    with zipfile.ZipFile(linux, "a") as archive:
+        own = next(name for name in archive.namelist() if name.endswith("/LICENSE"))
+        if own + ".GCC" not in archive.namelist():  # it is of Utilities/wheel.sh
+            archive.writestr(own + ".GCC", "of the library for Linux")
+    for platform, name in libraries.items():
+        made = folder / platform
+        (made / "library").mkdir(parents=True)
+        (made / "library" / name).write_bytes(b"library of " + platform.encode())
+        (made / "library/LICENSE.LLVM").write_text("license of libc++")
+        other = run([sys.executable, ROOT / "Utilities/exchange_library.py", linux, platform, made / "library" / name,
+                     made]).strip()
+        tree = made / "tree"
+        builder.run("-m", "pip", "install", "--quiet", "--no-deps", "--platform", platform, "--only-binary=:all:",
+                    "--python-version", "3.9", "--target", tree, other)
+        builder.run("-m", "wheel", "unpack", "--dest", made, other)  # compares all files with RECORD
+        package, information = tree / "scatteredisopoints", next(tree.glob("*.dist-info"))
+        found = sorted(path.name for path in package.iterdir() if path.suffix in (".so", ".dll", ".dylib"))
+        paths = runpy.run_path(str(package / "_paths.py"))
+        licenses = {path.name for path in information.glob("licenses/*")}
+        listed = set(re.findall("^License-File: (.*)$", (information / "METADATA").read_text(), re.MULTILINE))
+        if (found != [name] or paths["LIBRARY"] != str(package / name) or listed != licenses
+                or "LICENSE.GCC" in licenses or not {"LICENSE", "LICENSE.LLVM"} <= licenses):
+            sys.exit(f"failed: {other} has the libraries {found} and the licenses {licenses}, lists {listed}, and loads"
+                     f" {paths['LIBRARY']}")
+
+
 def check_results(environment, expected):
     found = environment.run(TESTS / "extractions.py")
     different = sum(a != b for a, b in zip(found.splitlines(), expected.splitlines()))
@@ -190,6 +225,8 @@ def main(folder, wheel=None):
     wheel = pathlib.Path(wheel).resolve() if wheel else built_wheel(builder, folder)
     print(f"{wheel.name}: {wheel.stat().st_size / 1e6:.2f} MB")
     check_source_archive(builder, folder)
+    builder.run("-m", "pip", "install", "--quiet", "wheel")
+    check_other_systems(builder, wheel, folder)
     expected = run([sys.executable, TESTS / "extractions.py", "--filters"])
 
     for version, path in pythons.items():
