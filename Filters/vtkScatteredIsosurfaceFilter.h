@@ -98,8 +98,8 @@ public:
   ///@{
   /**
    * The least area of a connected component, as a share of the area of the isovalue's largest one.
-   * Smaller ones, such as droplets, are left out. With CappingOn(), bubbles, with a negative volume,
-   * stay unless they are within one that is left out. From 0, for none, to 1. Default: 0.
+   * Smaller ones, such as droplets, are left out. With CappingOn(), bubbles, with a negative
+   * volume, stay unless they are within one that is left out. From 0, for none, to 1. Default: 0.
    */
   virtual void SetMinimumPieceSize(double share);
   virtual double GetMinimumPieceSize();
