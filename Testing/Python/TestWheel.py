@@ -116,8 +116,8 @@ def check_other_systems(builder, wheel, folder):
     stand-ins: their own checks are those of Utilities/wheel_elsewhere.sh."""
     libraries = {"win_amd64": "isopoint.dll", "macosx_11_0_arm64": "libisopoint.dylib",
                  "macosx_10_15_x86_64": "libisopoint.dylib"}
-    linux = folder / wheel.name
-    shutil.copy(wheel, linux)
+    (folder / "linux").mkdir()
+    linux = pathlib.Path(shutil.copy(wheel, folder / "linux"))
     with zipfile.ZipFile(linux, "a") as archive:
         own = next(name for name in archive.namelist() if name.endswith("/LICENSE"))
         if own + ".GCC" not in archive.namelist():  # it is of Utilities/wheel.sh
