@@ -5,6 +5,7 @@
 #include "Core/Base/Lists.h"
 #include "Core/Base/Vector.h"
 #include "Core/Extraction/Isosurface.h"
+#include "Core/Triangles/BodyOrientation.h"
 #include "Core/Triangles/TriangleGeometry.h"
 #include "Core/Triangles/VertexMerging.h"
 
@@ -57,15 +58,21 @@ template <class TSample>
 EdgeTriangles<TSample> withMergedVertices(const Execution& execution,
   MarchedTriangles<TSample> marched, std::vector<char> areKept, bool keepsRim)
 {
-  if (!marched.caps.empty())
+  const bool isBody = !marched.caps.empty();
+  if (isBody)
   {
     areKept.resize(marched.edges.size());
     forEachIndex(execution, areKept.size(),
       [&](std::size_t vertex) { areKept[vertex] = marched.edges[vertex].isSample() ? 1 : 0; });
   }
-  MergedTriangles merged = mergeVertices(
-    execution, { marched.positions, std::move(marched.triangles), std::move(marched.caps),
-                 std::move(marched.nearerEnds), marched.endCount, std::move(areKept), keepsRim });
+  MergeableTriangles exact{ marched.positions, std::move(marched.triangles),
+    std::move(marched.caps), std::move(marched.nearerEnds), marched.endCount, std::move(areKept),
+    keepsRim };
+  MergedTriangles merged = mergeVertices(execution, isBody ? exact : std::move(exact));
+  if (isBody)
+  {
+    restoreInvertedPieces(execution, exact, merged);
+  }
   EdgeTriangles<TSample> result;
   result.edges = chosenOf(execution, marched.edges, merged.members);
   result.edgeBegins = std::move(merged.memberBegins);

@@ -3,7 +3,6 @@
 
 #include "Core/Base/Lists.h"
 #include "Core/Extraction/Isosurface.h"
-#include "Core/Triangles/BodyOrientation.h"
 #include "Core/Triangles/CapRim.h"
 #include "Core/Triangles/EdgeFlipping.h"
 #include "Core/Triangles/ShortEdges.h"
@@ -456,13 +455,7 @@ private:
 
 MergedTriangles mergeVertices(const Execution& execution, MergeableTriangles triangles)
 {
-  if (triangles.caps.empty())
-  {
-    return VertexMerger(execution, std::move(triangles)).merge();
-  }
-  MergedTriangles merged = VertexMerger(execution, triangles).merge();
-  restoreInvertedPieces(execution, triangles, merged);
-  return merged;
+  return VertexMerger(execution, std::move(triangles)).merge();
 }
 
 } // namespace isopoint
