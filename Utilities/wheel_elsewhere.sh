@@ -98,7 +98,7 @@ collect_licenses()
 {
   local zig
   zig=$(echo "$folder"/zig/lib/python3.*/site-packages/ziglang)
-  cat "$zig"/lib/{libcxx,libunwind}/LICENSE.TXT > "$folder/$1/LICENSE.LLVM"
+  cat "$zig"/lib/{libcxx,libcxxabi,libunwind}/LICENSE.TXT > "$folder/$1/LICENSE.LLVM"
   cp "$zig/LICENSE" "$folder/$1/LICENSE.Zig"
   if [[ $1 == win_* ]]; then
     cp "$zig/lib/libc/mingw/COPYING" "$folder/$1/LICENSE.mingw-w64"

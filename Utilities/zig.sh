@@ -78,6 +78,7 @@ compile()
         options+=(-ILibrary -I"$folder/googletest" -isystem "$folder/googletest/include")
       ;;
   esac
+  rm -f "$object" # of a former run
   zig c++ -target "$1" -c "${options[@]}" "$2" -o "$object" > "$object.log" 2>&1 ||
     echo "$1: $2 fails: $object.log" >&2
 }
