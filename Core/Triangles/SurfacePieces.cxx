@@ -3,10 +3,10 @@
 
 #include "Core/Base/Lists.h"
 #include "Core/Base/Region.h"
+#include "Core/Triangles/ConnectedVertices.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace isopoint
 {
@@ -130,27 +130,15 @@ SurfacePieces::SurfacePieces(const Execution& execution,
   const std::vector<SurfaceTriangle>& triangles, std::size_t vertexCount)
   : pieceOf(vertexCount)
 {
-  std::iota(this->pieceOf.begin(), this->pieceOf.end(), std::size_t{ 0 });
-  const auto rootOf = [this](std::size_t vertex)
-  {
-    while (this->pieceOf[vertex] != vertex)
-    {
-      this->pieceOf[vertex] = this->pieceOf[this->pieceOf[vertex]];
-      vertex = this->pieceOf[vertex];
-    }
-    return vertex;
-  };
-  forEachInOrder(execution, triangles.size(),
+  ConnectedVertices connected(execution, vertexCount);
+  forEachIndex(execution, triangles.size(),
     [&](std::size_t i)
     {
-      for (std::size_t k = 1; k < 3; ++k)
-      {
-        const auto [low, high] = std::minmax({ rootOf(triangles[i][0]), rootOf(triangles[i][k]) });
-        this->pieceOf[high] = low;
-      }
+      connected.unite(triangles[i][0], triangles[i][1]);
+      connected.unite(triangles[i][0], triangles[i][2]);
     });
-  forEachInOrder(
-    execution, vertexCount, [&](std::size_t vertex) { this->pieceOf[vertex] = rootOf(vertex); });
+  forEachIndex(execution, vertexCount,
+    [&](std::size_t vertex) { this->pieceOf[vertex] = connected.rootOf(vertex); });
 }
 
 std::vector<double> volumesOf(const Execution& execution, const SurfacePieces& pieces,

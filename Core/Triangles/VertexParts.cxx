@@ -2,10 +2,10 @@
 #include "Core/Triangles/VertexParts.h"
 
 #include "Core/Base/Hash.h"
+#include "Core/Triangles/ConnectedVertices.h"
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <iterator>
 #include <utility>
 
@@ -14,58 +14,22 @@ namespace isopoint
 namespace
 {
 
-/// The lowest vertex that is connected to each vertex within its group: a forest in which all
-/// threads hang higher roots below lower ones.
-class ConnectedGroups
+/// The vertices that are connected within their groups.
+ConnectedVertices connectedWithin(
+  const Execution& execution, const SurfaceMesh& mesh, const std::vector<std::size_t>& groups)
 {
-public:
-  ConnectedGroups(
-    const Execution& execution, const SurfaceMesh& mesh, const std::vector<std::size_t>& groups)
-    : Parents(groups.size())
-  {
-    forEachIndex(execution, groups.size(),
-      [this](std::size_t vertex)
-      { this->Parents[vertex].store(vertex, std::memory_order_relaxed); });
-    forEachIndex(execution, 3 * mesh.triangles().size(),
-      [&](HalfEdge side)
-      {
-        const bool isFirst = mesh.twinOf(side) == noHalfEdge || side < mesh.twinOf(side);
-        if (isFirst && groups[mesh.startOf(side)] == groups[mesh.endOf(side)])
-        {
-          this->unite(mesh.startOf(side), mesh.endOf(side));
-        }
-      });
-  }
-
-  std::size_t rootOf(std::size_t vertex)
-  {
-    constexpr auto relaxed = std::memory_order_relaxed;
-    for (std::size_t parent = this->Parents[vertex].load(relaxed); parent != vertex;
-         parent = this->Parents[vertex].load(relaxed))
+  ConnectedVertices connected(execution, groups.size());
+  forEachIndex(execution, 3 * mesh.triangles().size(),
+    [&](HalfEdge side)
     {
-      // Halves the path for later calls.
-      this->Parents[vertex].store(this->Parents[parent].load(relaxed), relaxed);
-      vertex = parent;
-    }
-    return vertex;
-  }
-
-private:
-  void unite(std::size_t a, std::size_t b)
-  {
-    for (;;)
-    {
-      const auto [low, high] = std::minmax({ this->rootOf(a), this->rootOf(b) });
-      std::size_t expected = high;
-      if (low == high || this->Parents[high].compare_exchange_strong(expected, low))
+      const bool isFirst = mesh.twinOf(side) == noHalfEdge || side < mesh.twinOf(side);
+      if (isFirst && groups[mesh.startOf(side)] == groups[mesh.endOf(side)])
       {
-        return;
+        connected.unite(mesh.startOf(side), mesh.endOf(side));
       }
-    }
-  }
-
-  std::vector<std::atomic<std::size_t>> Parents; // itself for roots
-};
+    });
+  return connected;
+}
 
 /// Merges all simply connected parts, and separates some again until the others can be merged.
 class VertexContraction
@@ -268,7 +232,7 @@ void VertexParts::number(const Execution& execution, std::size_t vertexCount)
 VertexParts partsOfGroups(const Execution& execution, const SurfaceMesh& mesh,
   const std::vector<std::size_t>& groups, std::size_t groupCount)
 {
-  ConnectedGroups connected(execution, mesh, groups);
+  ConnectedVertices connected = connectedWithin(execution, mesh, groups);
   std::vector<std::size_t> roots(groups.size());
   forEachIndex(
     execution, roots.size(), [&](std::size_t vertex) { roots[vertex] = connected.rootOf(vertex); });

@@ -246,7 +246,7 @@ def main(arguments: list[str]) -> int:
     """Runs a command; returns its exit status."""
     parser, commands = make_parsers()
     if not arguments or arguments[0] not in commands or arguments[0] == "paraview":
-        parser.parse_args(arguments)  # ends, but for paraview
+        parser.parse_args(arguments)  # exits, except for paraview
         print(PARAVIEW, end="")
         return 0
     # A blank before negative numbers and normals: these are no options.

@@ -59,7 +59,7 @@ def contour(
         compute_splats=False, angle=54.7, number_of_neighbors=12. Of triangles only: regularize=False;
         capping=True, which closes the body of the samples at or above the isovalue where they end; and
         minimum_piece_size=0.01, the least area of a connected component as a share of the largest one's, which leaves
-        out droplets and what is in them.
+        out droplets and the bubbles in them.
 
         With MPI, each process contours its own samples unless `controller` is given, which needs the compiled
         VTK classes: then all ranks must make this call, and only the first one raises errors.

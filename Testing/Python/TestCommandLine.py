@@ -56,7 +56,7 @@ def write_inputs():
 
 
 def run(*arguments):
-    """The exit status, and what is printed to stdout and stderr."""
+    """Returns the exit status and the text on stdout and stderr."""
     with contextlib.redirect_stdout(io.StringIO()) as out, contextlib.redirect_stderr(io.StringIO()) as errors:
         try:
             status = _command_line.main([str(each) for each in arguments])
