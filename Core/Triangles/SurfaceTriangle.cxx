@@ -11,19 +11,30 @@
 namespace isopoint
 {
 
-std::vector<std::size_t> verticesOf(const Execution& execution,
+namespace
+{
+
+std::vector<std::atomic<bool>> marksOfVertices(const Execution& execution,
   const std::vector<SurfaceTriangle>& triangles, std::size_t vertexCount)
 {
-  std::vector<std::atomic<bool>> areUsed(vertexCount);
+  std::vector<std::atomic<bool>> marks(vertexCount);
   forEachIndex(execution, triangles.size(),
     [&](std::size_t i)
     {
       for (const std::size_t vertex : triangles[i])
       {
-        areUsed[vertex].store(true, std::memory_order_relaxed);
+        marks[vertex].store(true, std::memory_order_relaxed);
       }
     });
-  return markedOf(execution, areUsed);
+  return marks;
+}
+
+} // namespace
+
+std::vector<std::size_t> verticesOf(const Execution& execution,
+  const std::vector<SurfaceTriangle>& triangles, std::size_t vertexCount)
+{
+  return markedOf(execution, marksOfVertices(execution, triangles, vertexCount));
 }
 
 std::vector<SurfaceTriangle> ordered(
@@ -42,16 +53,8 @@ std::vector<SurfaceTriangle> ordered(
 std::vector<char> areVerticesOf(const Execution& execution,
   const std::vector<SurfaceTriangle>& triangles, std::size_t vertexCount)
 {
-  std::vector<char> marks(vertexCount, 0);
-  forEachInOrder(execution, triangles.size(),
-    [&](std::size_t i)
-    {
-      for (const std::size_t vertex : triangles[i])
-      {
-        marks[vertex] = 1;
-      }
-    });
-  return marks;
+  const std::vector<std::atomic<bool>> marks = marksOfVertices(execution, triangles, vertexCount);
+  return { marks.begin(), marks.end() };
 }
 
 std::vector<char> areAmong(const Execution& execution,
