@@ -68,10 +68,15 @@ EdgeTriangles<TSample> withMergedVertices(const Execution& execution,
   MergeableTriangles exact{ marched.positions, std::move(marched.triangles),
     std::move(marched.caps), std::move(marched.nearerEnds), marched.endCount, std::move(areKept),
     keepsRim };
-  MergedTriangles merged = mergeVertices(execution, isBody ? exact : std::move(exact));
+  MergedTriangles merged;
   if (isBody)
   {
+    merged = mergeVertices(execution, exact);
     restoreInvertedPieces(execution, exact, merged);
+  }
+  else
+  {
+    merged = mergeVertices(execution, std::move(exact));
   }
   EdgeTriangles<TSample> result;
   result.edges = chosenOf(execution, marched.edges, merged.members);
