@@ -19,7 +19,7 @@ from ._arrays import CELL, POINT, as_numpy, describe_masked, further_arrays, pos
 from ._datasets import given_values, is_of_pyvista, leaves, named_arrays, point_positions
 from ._ghosts import HIDDEN_CELL, HIDDEN_POINT, ghosts_of
 from ._isosurface import Isosurface
-from ._options import constant, make_options, property_name, switch
+from ._options import constant, direction_sign, make_options, property_name, switch
 from ._polydata import PolyDataMaker, as_vtk
 from ._progress import Progress, shown_progress
 from .vtkScatteredIsopointFilters import (
@@ -49,6 +49,9 @@ def filtered(
         isopoints.SetValue(i, isovalue)
     make_options(triangles, {name: value for name, value in options.items()
                              if name not in ("controller", "use_all_cores")})
+    options = {**options}
+    if direction_sign(options.pop("gradient_direction", "descent")) < 0:
+        raise TypeError("gradient_direction goes without a controller: contour the negated values")
     for name, value in options.items():
         number = constant(name, value)
         getattr(isopoints, "Set" + property_name(name))(number)

@@ -24,7 +24,8 @@ class Isosurface:
     """Positions in the unit of the input: shape (n, 3), of float32 or float64."""
 
     triangles: Optional[np.ndarray]
-    """Indices of points, shape (m, 3), counterclockwise seen from lower values; None of points."""
+    """Indices of points, shape (m, 3), counterclockwise seen from lower values, or from higher ones with
+    gradient_direction="ascent"; None of points."""
 
     arrays: dict[str, np.ndarray]
     """All numeric arrays of the points by name: shape (n,) or (n, components)."""
@@ -71,7 +72,8 @@ class Isosurface:
 
     @property
     def normals(self) -> Optional[np.ndarray]:
-        """Unit normals towards decreasing values, shape (n, 3); None if not computed."""
+        """Unit normals out of the body, shape (n, 3): towards decreasing values, or increasing ones with
+        gradient_direction="ascent". None if not computed."""
         return self.arrays.get("Normals")
 
     @property

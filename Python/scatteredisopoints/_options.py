@@ -58,7 +58,7 @@ def constant(name: str, value: Any) -> Any:
 
 def make_options(triangles: bool, given: Mapping[str, Any]) -> Options:
     """Raises TypeError for unknown options and ValueError for invalid values. The library checks ranges."""
-    names = option_names(triangles)
+    names = [*option_names(triangles), "gradient_direction"]
     options = Options()
     options.triangles = int(switch("triangles", triangles))
     for name, value in given.items():
@@ -66,11 +66,21 @@ def make_options(triangles: bool, given: Mapping[str, Any]) -> Options:
             raise _unknown_option(name, triangles)
         if name == "compute_scalars":
             switch(name, value)
+        elif name == "gradient_direction":
+            direction_sign(value)
         elif name == "keep_tree":
             options.keep_tetrahedra = int(switch(name, value))
         else:
             setattr(options, name, number_of(name, constant(name, value), getattr(options, name)))
     return options
+
+
+def direction_sign(direction: Any) -> int:
+    """What values are multiplied by so that they decrease out of the body. Raises ValueError for invalid values."""
+    signs = {"descent": 1, "ascent": -1}
+    if not isinstance(direction, str) or direction not in signs:
+        raise ValueError(f'gradient_direction cannot be {direction!r}: it is "descent" or "ascent"')
+    return signs[direction]
 
 
 def make_probe_options(method: Any, outside: Any) -> ProbeOptions:
@@ -133,7 +143,7 @@ def _unknown_option(name: str, triangles: bool) -> TypeError:
     if name in ("contour_blocks", "use_all_cores"):
         remedy = "call contour() for each block" if name == "contour_blocks" else "use threads"
         return TypeError(f"{name} is a property of the filters alone: {remedy}")
-    names = option_names(triangles)
+    names = [*option_names(triangles), "gradient_direction"]
     snake = re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower()
     return TypeError(f"unknown option {name}: {hint(snake, names, set(_PARAMETERS) - {name})}")
 

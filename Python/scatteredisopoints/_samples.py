@@ -21,12 +21,13 @@ from ._bodies import body_of
 from ._cuts import Normal
 from ._interpolator import Interpolator
 from ._isosurface import Isosurface
-from ._options import CONSTANTS, hint, make_options, make_probe_options, switch, thread_count
+from ._options import (
+    CONSTANTS, direction_sign, hint, make_options, make_probe_options, switch, thread_count)
 from ._progress import Progress, shown_progress
 from ._slices import sliced
 
-_VALUES = "values"
-"""The key of the samples' own values: see Samples._hold()."""
+_VALUES = {1: "values", -1: "negated values"}
+"""The keys of the samples' own values by their sign: see Samples._hold()."""
 
 
 @dataclass
@@ -37,11 +38,17 @@ class Extracted:
     surface: _library.Surface
     own_messages: list[_library.Message]
     """Messages of this package, beside those of the library."""
+    sign: int
+    """-1 if the library extracted from the negated values."""
 
     @property
     def messages(self) -> list[_library.Message]:
         """All messages."""
-        return _library.messages(self.surface) + self.own_messages
+        of_library = _library.messages(self.surface)
+        if self.sign < 0:
+            of_library = [replace(each, text=f"With negated values, as of gradient_direction: {each.text}")
+                          for each in of_library]
+        return of_library + self.own_messages
 
 
 class Samples:
@@ -176,7 +183,7 @@ class Samples:
             self._values, self._masked = values, masked
             _library.run(_library.set_threads, self._extractor, thread_count(self._threads))
             _library.run(_library.set_name, self._extractor, self._name.encode(errors="replace"))
-            self._hold(_VALUES, numbers, [self._excluded, masked], callbacks)
+            self._hold(_VALUES[1], numbers, [self._excluded, masked], callbacks)
             self._range = self._held_range()
             self._skipped = _library.get_skipped_count(self._extractor)
             is_float = numbers is not None and numbers.dtype == np.float32
@@ -194,10 +201,16 @@ class Samples:
             np.any(masks, axis=0).view(np.uint8) if masks else None)
         self._held = key
 
-    def _hold_values(self, callbacks: Mapping[str, Any]) -> None:
-        """Loads the samples' own values again if the extractor holds others, such as those of a slice."""
-        if self._held != _VALUES and self._values is not None:
-            self._hold(_VALUES, readable("values", as_numpy(self._values)), [self._excluded, self._masked], callbacks)
+    def _hold_values(self, callbacks: Mapping[str, Any], sign: int = 1) -> None:
+        """Loads the samples' own values again if the extractor holds others, such as those of a slice.
+
+        sign: -1 negates them.
+        """
+        if self._held != _VALUES[sign] and self._values is not None:
+            numbers = readable("values", as_numpy(self._values))
+            if sign < 0:
+                numbers = -(numbers if numbers.dtype == np.float32 else numbers.astype(np.float64, copy=False))
+            self._hold(_VALUES[sign], numbers, [self._excluded, self._masked], callbacks)
 
     def _held_range(self) -> tuple[float, float]:
         range_ = (2 * c_double)()
@@ -250,6 +263,7 @@ class Samples:
         if arrays is not None and self._arrays is not None:
             raise TypeError("arrays go with an array of positions: add them to the data set instead")
         chosen = make_options(triangles, options)
+        sign = direction_sign(options.get("gradient_direction", "descent"))
         levels = isovalues_of(isovalues)
         of_samples = further_arrays(arrays, len(self)) if self._arrays is None else self._arrays
         threads = self._threads if threads is None else threads
@@ -259,8 +273,8 @@ class Samples:
             if self._values is None:
                 raise ValueError("The samples were made without values: call replace_values().")
             _library.run(_library.set_threads, self._extractor, most_threads)
-            self._hold_values({**callbacks, "progress": None})
-            surface = self._surface(levels, chosen, callbacks)
+            self._hold_values({**callbacks, "progress": None}, sign)
+            surface = self._surface([sign * level for level in levels], chosen, callbacks)
             value_type, masked = self._value_type, self._masked
         messages = []
         if masked is not None:
@@ -275,14 +289,16 @@ class Samples:
                 messages.append(_library.Message(
                     f'The isovalues replace the array "{name}" of the data set: rename that.',
                     is_warning=True, cause=f"isovalues replace {name}"))
-            found[name] = self._contoured(surface, chosen, callbacks.get("is_canceled")).astype(value_type, copy=False)
-        computed = _computed(surface, chosen)
+            contoured = self._contoured(surface, chosen, sign, callbacks.get("is_canceled"))
+            found[name] = contoured.astype(value_type, copy=False)
+        computed = _computed(surface, chosen, sign)
         messages += [_library.Message(
             f'The computed array "{name}" replaces the input array of this name. To keep that, rename'
             " it or switch the computed array off.", is_warning=True, cause=f"replaced array {name}")
             for name in computed if name in found]
         found.update(computed)
-        return Extracted(self._as_isosurface(surface, found, levels, chosen, threads), surface, messages)
+        isosurface = self._as_isosurface(surface, found, levels, chosen, threads, sign)
+        return Extracted(isosurface, surface, messages, sign)
 
     def _surface(self, levels: list[float], options: _library.Options, callbacks: Mapping[str, Any]
                  ) -> _library.Surface:
@@ -485,16 +501,17 @@ class Samples:
                               array if array.ndim < 3 else array.reshape(len(array), -1), found[name])
         return found
 
-    def _contoured(self, surface, options: _library.Options, is_canceled) -> np.ndarray:
+    def _contoured(self, surface, options: _library.Options, sign: int, is_canceled) -> np.ndarray:
         """The isovalues; at samples of caps the values of these."""
-        isovalues = _library.view(surface, _library.ISOVALUES)
+        isovalues = _signed(_library.view(surface, _library.ISOVALUES), sign)
         if not options.capping:
             return isovalues
         values = np.asarray(readable("values", as_numpy(self._values)), np.float64)
         at_samples = np.equal(*_library.view(surface, _library.EDGES).T)
         return np.where(at_samples, self._interpolated(surface, {"": values}, is_canceled)[""], isovalues)
 
-    def _as_isosurface(self, surface, arrays, levels, options: _library.Options, threads: Optional[int]) -> Isosurface:
+    def _as_isosurface(self, surface, arrays, levels, options: _library.Options, threads: Optional[int],
+                       sign: int = 1) -> Isosurface:
         triangles, shapes = None, {}
         if options.triangles:
             triangles = _library.view(surface, _library.TRIANGLES)
@@ -504,7 +521,8 @@ class Samples:
         maker = self._maker if options.compute_normals else replace(self._maker, normals=None)
         caps = {"IsCap": _library.view(surface, _library.CAPS)} if options.capping else {}
         return Isosurface(_library.view(surface, _library.POINTS), triangles, arrays, shapes, maker, threads=threads,
-                          cell_arrays=caps, levels=levels, isovalues=_library.view(surface, _library.ISOVALUES))
+                          cell_arrays=caps, levels=levels,
+                          isovalues=_signed(_library.view(surface, _library.ISOVALUES), sign))
 
 
 _all: weakref.WeakSet[Samples] = weakref.WeakSet()
@@ -525,7 +543,12 @@ def _describe_flat(kinds: np.ndarray) -> Iterator[str]:
                " at the nearest point of it, and gradients have no part across.")
 
 
-def _computed(surface: _library.Handle, options: _library.Options) -> dict[str, np.ndarray]:
+def _signed(numbers: np.ndarray, sign: int) -> np.ndarray:
+    """Negates numbers if the sign is -1."""
+    return numbers if sign > 0 else 0.0 - numbers  # 0 stays 0
+
+
+def _computed(surface: _library.Handle, options: _library.Options, sign: int) -> dict[str, np.ndarray]:
     """The arrays that the library computes for each point, by the filters' names."""
     are_wanted = {
         "Normals": (_library.NORMALS, options.compute_normals),
@@ -533,5 +556,8 @@ def _computed(surface: _library.Handle, options: _library.Options) -> dict[str, 
         "Gradients": (_library.GRADIENTS, options.compute_gradients),
         "ProjectionOrder": (_library.PROJECTION_ORDERS, options.compute_projection_orders),
     }
-    return {name: _library.view(surface, array_id)
-            for name, (array_id, is_wanted) in are_wanted.items() if is_wanted}
+    computed = {name: _library.view(surface, array_id)
+                for name, (array_id, is_wanted) in are_wanted.items() if is_wanted}
+    if "Gradients" in computed:
+        computed["Gradients"] = _signed(computed["Gradients"], sign)
+    return computed

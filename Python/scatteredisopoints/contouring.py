@@ -55,7 +55,9 @@ def contour(
         "QUADRATIC_FIT", "LINEAR_FIT", None), drop_gaps=False, compute_gradients=True,
         compute_projection_orders=True, compute_normals=False, compute_scalars=False, keep_tree=False,
         normal_method="NORMALS_FROM_PLANES" (or "NORMALS_FROM_FIELD"),
-        output_points_precision="SINGLE_PRECISION" (or "DOUBLE_PRECISION"). Of points only: minimum_spacing=0.5,
+        output_points_precision="SINGLE_PRECISION" (or "DOUBLE_PRECISION"); gradient_direction="ascent", as in
+        scikit-image: the body has values at or below the isovalue, as that of a distance does, and normals, triangles
+        and caps are those of the negated values. Of points only: minimum_spacing=0.5,
         compute_splats=False, angle=54.7, number_of_neighbors=12. Of triangles only: regularize=False;
         capping=True, which closes the body of the samples at or above the isovalue where they end; and
         minimum_piece_size=0.01, the least area of a connected component as a share of the largest one's, which leaves
@@ -100,8 +102,9 @@ def contour(
     levels = isovalues_of(isovalues)
     # The filters' output does not tell the isovalue of each triangle, which areas and volumes need.
     is_told = not triangles or len(set(levels)) <= 1
+    descends = options.get("gradient_direction", "descent") == "descent"
     if controller is not None or (
-            threads is None and is_told and data is not None and package_of(data) == "vtkmodules"):
+            threads is None and is_told and descends and data is not None and package_of(data) == "vtkmodules"):
         filters = compiled_filters()
         if filters is not None:
             return filters.filtered(positions if data is None else data, values,

@@ -182,6 +182,44 @@ class ContourTest(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "unknown option capping: there are drop_gaps"):
             body(positions, capping=True)
 
+    def test_gradient_direction(self):
+        """The body at or below the isovalue is that of the negated values, which only the values at points show."""
+        positions, _ = samples(7000, np.float64)
+        distance = np.linalg.norm(positions - 0.4, axis=1)
+        kept = Samples(positions, distance)
+        before = kept.contour(0.3)
+        for values, dtype in ((distance, np.float64), (distance.astype(np.float32), np.float32),
+                              (np.rint(100 * distance).astype(np.uint8), np.float64)):
+            scale = 100.0 if values.dtype == np.uint8 else 1.0
+            levels = [0.3 * scale, 0.2 * scale, 5.0 * scale]
+            for options in (dict(triangles=True, capping=True), dict(triangles=True, compute_gradients=True), {}):
+                found = contour(positions, values, levels, gradient_direction="ascent", **options)
+                negated = contour(positions, -values.astype(dtype), [-level for level in levels], **options)
+                self.assertEqual(found.arrays.keys(), negated.arrays.keys())
+                for name, array in found.arrays.items():
+                    sign = -1 if name in ("values", "Gradients") else 1
+                    np.testing.assert_array_equal(array, sign * negated.arrays[name])
+                np.testing.assert_array_equal(found.points, negated.points)
+                self.assertEqual(found.arrays["values"].dtype, negated.arrays["values"].dtype)
+                if found.are_triangles:
+                    np.testing.assert_array_equal(found.triangles, negated.triangles)
+            bodies = contour(positions, values, levels[:2], gradient_direction="ascent", triangles=True, capping=True)
+            np.testing.assert_allclose(bodies.volume, 4 / 3 * np.pi * np.array([0.2, 0.3])**3, rtol=0.05)
+            self.assertEqual([piece.isovalue for piece in bodies.pieces], levels[:2])
+        outwards = kept.contour(0.3, gradient_direction="ascent", compute_gradients=True)
+        self.assertTrue((np.sum(outwards.normals * (outwards.points - 0.4), axis=1) > 0).all())
+        self.assertTrue((np.sum(outwards.arrays["Gradients"] * outwards.normals, axis=1) > 0).all())
+        np.testing.assert_array_equal(kept.contour(0.3).points, before.points)
+        self.assertGreater(contour(cloud_of(positions, distance), None, 0.3, gradient_direction="ascent",
+                                   triangles=True).volume, 0)
+        with self.assertWarnsRegex(RuntimeWarning, "With negated values, as of gradient_direction: No isosurface at"
+                                   " -3: "):
+            kept.contour(3.0, gradient_direction="ascent")
+        with self.assertRaisesRegex(ValueError, "gradient_direction cannot be 'up': it is \"descent\" or"):
+            kept.contour(0.3, gradient_direction="up")
+        with self.assertRaisesRegex(TypeError, "unknown option gradient_directions: did you mean gradient_direction?"):
+            kept.contour(0.3, gradient_directions="ascent")
+
     def test_arrays_of_other_types(self):
         positions, values = samples()
         for dtype in (np.int16, np.uint16, np.int32, np.int64, np.uint64):
