@@ -1,7 +1,7 @@
 # Writes the properties of the filters as XML, from templates in Plugin, for ParaView's plugin and the Python
 # package: ${FILTER_PROPERTIES_DIR}/NAME.xml.
 set(FILTER_PROPERTIES_DIR "${CMAKE_BINARY_DIR}/properties")
-set(filter_templates ScatteredFilter ScatteredProbe ScatteredGradient ScatteredSlice)
+set(filter_templates ScatteredFilter ScatteredProbe ScatteredGradient ScatteredSlice ScatteredBody)
 foreach (template IN LISTS filter_templates ITEMS CommonProperties)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "Plugin/${template}.xml.in")
 endforeach ()
@@ -37,3 +37,4 @@ configure_filter(ScatteredProbe Line ScatteredLine "Scattered Line" line)
 configure_filter(ScatteredProbe Grid ScatteredGrid "Scattered Grid" grid)
 configure_filter(ScatteredGradient Gradient ScatteredGradient "Scattered Gradient")
 configure_filter(ScatteredSlice Slice ScatteredSlice "Scattered Slice")
+configure_filter(ScatteredBody Body ScatteredBody "Scattered Body")

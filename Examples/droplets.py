@@ -7,7 +7,7 @@ import numpy as np
 from paraview.simple import *
 from vtkmodules.vtkFiltersCore import vtkMassProperties
 
-# Stands for your files: particles of a jet that breaks into droplets, at seven times. Any array will do.
+# Stands for your files: particles of a jet that breaks into droplets, at seven times.
 random = np.random.default_rng(6)
 lattice = np.stack(np.meshgrid(np.arange(-3, 3, 0.045), *2 * [np.arange(-0.6, 0.6, 0.045)], indexing="ij"), -1)
 particles = lattice.reshape(-1, 3) + random.normal(0, 0.004, (lattice.size // 3, 3))
@@ -18,11 +18,10 @@ for step in range(7):
     radius = 0.33 * wave / np.sqrt((wave**2).mean()) * (np.abs(x) < 2.9)
     drop = particles[np.hypot(y, z) < radius]
     paths.append(f"droplets_{step}.csv")
-    np.savetxt(paths[-1], np.column_stack([drop, drop[:, 0]]), "%.6f", ",", header="x,y,z,s", comments="")
+    np.savetxt(paths[-1], drop, "%.6f", ",", header="x,y,z", comments="")
 
-# The body of all particles is that above an isovalue below all values.
 samples = TableToPoints(Input=CSVReader(FileName=paths), XColumn="x", YColumn="y", ZColumn="z")
-body = ScatteredIsosurface(Input=samples, ContourBy=["POINTS", "s"], Isosurfaces=[-100], Capping=1)
+body = ScatteredBody(Input=samples)
 pieces = Connectivity(Input=body)
 
 rows = []

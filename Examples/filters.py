@@ -25,15 +25,17 @@ gradient = ScatteredGradient(Input=samples, ScalarArray=["POINTS", "temperature"
 arrows = Glyph(Input=gradient, GlyphType="Arrow", OrientationArray=["POINTS", "Gradient"],
                ScaleArray=["POINTS", "Gradient"], ScaleFactor=0.14, MaximumNumberOfSamplePoints=2500)
 probe = ScatteredProbe(Input=samples, Source=Superquadric(ThetaResolution=100, PhiResolution=100, Toroidal=1, Size=0.7))
+hot = Clip(Input=samples, ClipType="Scalar", Scalars=["POINTS", "temperature"], Value=0.3, Invert=0)
+body = ScatteredBody(Input=hot)
 
 LoadPalette("WhiteBackground")
-pictures = {"isosurface": isosurface, "slice": piece, "grid": image, "gradient": arrows, "probe": probe}
+pictures = {"isosurface": isosurface, "slice": piece, "grid": image, "gradient": arrows, "probe": probe, "body": body}
 for name, shown in pictures.items():
     view = CreateRenderView(ViewSize=[320, 240], OrientationAxesVisibility=0)
     display = Show(shown, view)
     if shown is image:
         display.SetRepresentationType("Volume")
-    if shown is isosurface:
+    if shown in (isosurface, body):
         display.ColorArrayName = ["POINTS", ""]
         display.AmbientColor = display.DiffuseColor = [0.8, 0.4, 0.2]
     else:

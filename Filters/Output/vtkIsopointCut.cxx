@@ -27,18 +27,18 @@
 vtkIsopointCut::vtkIsopointCut(vtkImplicitFunction* function)
   : Function(function)
 {
-  if (vtkPlane::SafeDownCast(function) && !function->GetTransform())
+  this->IsOfPlane = !function || (vtkPlane::SafeDownCast(function) && !function->GetTransform());
+  if (function && this->IsOfPlane)
   {
     double zero[3] = { 0.0, 0.0, 0.0 };
     function->EvaluateGradient(zero, this->Normal.data());
     this->Level = -function->EvaluateFunction(zero);
-    this->IsOfPlane = true;
   }
 }
 
 void vtkIsopointCut::Check() const
 {
-  if (!this->IsOfPlane)
+  if (!this->Function || !this->IsOfPlane)
   {
     return;
   }

@@ -23,6 +23,7 @@ class vtkPolyData;
 
 /// An implicit function whose level sets are slices of samples (docs/triangles.md, "Slices"). Of a
 /// plane without a transform, the values depend on the normal alone, and the rest is in the level.
+/// Without a function, values are 0 everywhere, as of a plane without a normal.
 class vtkIsopointCut
 {
 public:

@@ -75,11 +75,22 @@ bool isOutermost(const isopoint::Report& report)
     [&](double value) { return value >= near && value <= report.greatest; });
 }
 
-/// Why a slice is empty, and the remedy.
-std::string whyEmpty(const isopoint::Report& report, isopoint::OptionNaming naming)
+} // namespace
+
+/// Why the surface is empty, and the remedy.
+std::string vtkIsopointSlicing::WhyEmpty(isopoint::OptionNaming naming) const
 {
+  const isopoint::Report& report = this->Report;
+  const std::string tooFew = report.droppedInGaps > 0
+                               ? "all of it is in gaps between samples. Turn " +
+                                   naming(isopoint::option::dropGaps.name) + " off."
+                               : "the samples are in one plane, or fewer than four.";
   const auto isAny = [&](auto is)
   { return std::any_of(report.isovalues.begin(), report.isovalues.end(), is); };
+  if (this->IsBody)
+  {
+    return tooFew;
+  }
   if (report.isovalues.empty())
   {
     return "there are no offsets. Set one, such as 0.";
@@ -94,16 +105,12 @@ std::string whyEmpty(const isopoint::Report& report, isopoint::OptionNaming nami
   }
   if (isAny([&](double value) { return value > report.least && value <= report.greatest; }))
   {
-    return report.droppedInGaps > 0 ? "all of it is in gaps between samples. Turn " +
-                                        naming(isopoint::option::dropGaps.name) + " off."
-                                    : "the samples are in one plane, or fewer than four.";
+    return tooFew;
   }
   return isAny([&](double value) { return value == report.least; })
            ? "samples on it count as above it, and none are below. Move it among the samples."
            : "all samples are on one side of it. Move it among the samples.";
 }
-
-} // namespace
 
 vtkIsopointSlicing::vtkIsopointSlicing(vtkIsopointUpdate& update)
   : Update(update)
@@ -117,6 +124,7 @@ void vtkIsopointSlicing::Run(
 {
   this->Report = isopoint::Report();
   this->Dropped.clear();
+  this->IsBody = options.Core.capping;
   const bool isDone = this->Update.Run(
     vtkDataObject::GetData(outputInfo), [&]() { this->Slice(options, inputInfo, outputInfo); },
     [this](isopoint::OptionNaming naming) { return this->Describe(naming); });
@@ -134,7 +142,7 @@ void vtkIsopointSlicing::Run(
 void vtkIsopointSlicing::Slice(
   const Options& options, vtkInformation* inputInfo, vtkInformation* outputInfo)
 {
-  if (!options.Function)
+  if (!options.Function && !this->IsBody)
   {
     throw isopoint::UsageError("There is no cut function. Set a plane or another one.");
   }
@@ -338,18 +346,20 @@ std::vector<isopoint::Message> vtkIsopointSlicing::Describe(isopoint::OptionNami
 {
   const isopoint::Report& report = this->Report;
   std::vector<isopoint::Message> messages;
-  const isopoint::Message skipped =
-    isopoint::describeSkipped(report, "There is no slice. Connect samples with finite positions.",
-      "The slice there is that of the samples around.");
+  const std::string thing = this->IsBody ? "body" : "slice";
+  const isopoint::Message skipped = isopoint::describeSkipped(report,
+    "There is no " + thing + ". Connect samples with finite positions.",
+    "The " + thing + " there is that of the samples around.");
   if (!skipped.text.empty())
   {
     messages.push_back(skipped);
   }
   if (report.pointCount() == 0 && report.least <= report.greatest)
   {
-    messages.push_back({ "empty slice", "The slice is empty: " + whyEmpty(report, naming) });
+    messages.push_back({ "empty " + thing,
+      (this->IsBody ? "There is no body: " : "The slice is empty: ") + this->WhyEmpty(naming) });
   }
-  if (report.pointCount() > 0 && isOutermost(report))
+  if (report.pointCount() > 0 && !this->IsBody && isOutermost(report))
   {
     messages.push_back({ "outermost slice",
       "The slice is only where samples are on it, as no sample is beyond it. Move it among the"

@@ -24,14 +24,15 @@ class vtkPolyData;
 class vtkPointData;
 struct vtkIsopointCloud;
 
-/// Slices samples in the updates of a filter.
+/// Slices samples in the updates of a filter, or finds their body: the surface of values that a
+/// function has at the samples, with all their arrays.
 class vtkIsopointSlicing
 {
 public:
   /// What to slice.
   struct Options
   {
-    isopoint::Options Core; // of the triangles
+    isopoint::Options Core; // of the triangles; with capping, Function is null
     vtkSmartPointer<vtkImplicitFunction> Function;
     std::vector<double> Offsets;                 // values of the function
     std::optional<isopoint::PlaceMethod> Method; // of arrays; none: linear along edges
@@ -52,6 +53,7 @@ private:
   void CheckValues(const vtkIsopointCloud& cloud) const;
   void CheckFunctionOnRanks(const vtkIsopointCut& cut, const vtkIsopointCloud& cloud);
   vtkIsopointCloud& Load(const vtkIsopointCut& cut, vtkInformation* inputInfo);
+  std::string WhyEmpty(isopoint::OptionNaming naming) const;
   void FillOutput(const Options& options, const vtkIsopointCut& cut, vtkIsopointCloud& cloud,
     std::vector<isopoint::ExtractedIsosurface>& surfaces, vtkPolyData* output);
   void Fit(isopoint::PlaceMethod method, vtkIsopointCloud& cloud, vtkPolyData* output);
@@ -60,6 +62,7 @@ private:
   vtkIsopointUpdate& Update;
   isopoint::Report Report;
   std::set<std::string> Dropped; // arrays
+  bool IsBody = false;
 
   // Of the function at the samples, by block; kept with the tree.
   std::vector<vtkSmartPointer<vtkDoubleArray>> Values;

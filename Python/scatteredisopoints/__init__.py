@@ -35,9 +35,9 @@ _COMPILED = ("vtkScatteredIsopointFilters", "vtkScatteredIsopointRendering",
              "vtkScatteredIsopointRayTracing")
 _MODULES = {
     "ray_trace": ("ray_tracing",),
-    **dict.fromkeys(("vtkIsopointSplatPolygons", "vtkScatteredGradientFilter", "vtkScatteredGridFilter",
-                     "vtkScatteredIsopointFilter", "vtkScatteredIsosurfaceFilter", "vtkScatteredLineFilter",
-                     "vtkScatteredProbeFilter", "vtkScatteredSliceFilter"), (*_COMPILED, "_vtk")),
+    **dict.fromkeys(("vtkIsopointSplatPolygons", "vtkScatteredBodyFilter", "vtkScatteredGradientFilter",
+                     "vtkScatteredGridFilter", "vtkScatteredIsopointFilter", "vtkScatteredIsosurfaceFilter",
+                     "vtkScatteredLineFilter", "vtkScatteredProbeFilter", "vtkScatteredSliceFilter"), (*_COMPILED, "_vtk")),
     **dict.fromkeys(("vtkIsopointPolygonMapper", "vtkIsopointRayTracer", "vtkIsopointSplatMapper",
                      "vtkScatteredAlgorithm", "vtkScatteredContourFilter"), _COMPILED)}
 
@@ -48,6 +48,7 @@ if TYPE_CHECKING:
     vtkIsopointSplatMapper: Any
     vtkIsopointSplatPolygons: Any
     vtkScatteredAlgorithm: Any
+    vtkScatteredBodyFilter: Any
     vtkScatteredContourFilter: Any
     vtkScatteredGradientFilter: Any
     vtkScatteredGridFilter: Any

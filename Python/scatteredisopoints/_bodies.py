@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 import warnings
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Mapping, Optional
 
 import numpy as np
@@ -21,17 +22,32 @@ if TYPE_CHECKING:
 OPTIONS = ("drop_gaps", "minimum_piece_size", "output_points_precision")
 
 
-def body_of(samples: Samples, arrays: Any, threads: Optional[int], progress: Progress, options: Mapping[str, Any],
-            stacklevel: int) -> Isosurface:
-    """Samples.body()."""
-    for name in options:
-        if name not in OPTIONS:
-            raise TypeError(f"unknown option {name}: {hint(name, OPTIONS)}")
+@dataclass
+class Body:
+    """A closed surface, and what tells why it may be empty."""
+
+    isosurface: Isosurface
+    dropped: int
+    """The number of tetrahedra in gaps."""
+    skipped: int
+    """The number of samples without a finite position, and of hidden ones."""
+
+    def describe_empty(self) -> Optional[str]:
+        """Why there is no body, and the remedy; None if there is one."""
+        if len(self.isosurface) > 0:
+            return None
+        return "There is no body: " + (
+            "all of it is in gaps between samples. Turn drop_gaps off." if self.dropped > 0
+            else "the samples are in one plane, or fewer than four.")
+
+
+def make_body(samples: Samples, options: Mapping[str, Any], of_samples: Mapping[str, Any], threads: Optional[int],
+              report: Any) -> Body:
+    """The body of samples, with arrays by name. Calls `report` with the share done."""
     chosen = make_options(True, {**options, "capping": True, "projection": None, "compute_normals": False})
-    of_samples = arrays_of(samples, arrays)
     threads = samples._threads if threads is None else threads
     most_threads = thread_count(threads)
-    with shown_progress(progress, "Finding the body") as report, samples._exclusive():
+    with samples._exclusive():
         samples._require_samples()
         _library.run(_library.set_threads, samples._extractor, most_threads)
         if samples._held != "body":
@@ -39,12 +55,23 @@ def body_of(samples: Samples, arrays: Any, threads: Optional[int], progress: Pro
         surface = samples._surface([-math.inf], chosen, {"progress": part(report, 0.3, 1.0)})
         skipped = _library.get_skipped_count(samples._extractor)
     found = samples._interpolated(surface, of_samples, None)
-    texts = list(samples._describe_left_out(skipped))
+    return Body(samples._as_isosurface(surface, found, [-math.inf], chosen, threads),
+                _library.get_dropped_count(surface), skipped)
+
+
+def body_of(samples: Samples, arrays: Any, threads: Optional[int], progress: Progress, options: Mapping[str, Any],
+            stacklevel: int) -> Isosurface:
+    """Samples.body()."""
+    for name in options:
+        if name not in OPTIONS:
+            raise TypeError(f"unknown option {name}: {hint(name, OPTIONS)}")
+    of_samples = arrays_of(samples, arrays)
+    with shown_progress(progress, "Finding the body") as report:
+        made = make_body(samples, options, of_samples, threads, report)
+    texts = list(samples._describe_left_out(made.skipped))
     if arrays is None and samples._differing:
         texts.append(_datasets.describe_differing(samples._differing))
-    body = samples._as_isosurface(surface, found, [-math.inf], chosen, threads)
-    if len(body) == 0:
-        texts.append("There is no body: the samples are in one plane, or fewer than four.")
-    for text in texts:
+    empty = made.describe_empty()
+    for text in texts if empty is None else [*texts, empty]:
         warnings.warn(text, RuntimeWarning, stacklevel=stacklevel)
-    return body
+    return made.isosurface

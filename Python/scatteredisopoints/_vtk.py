@@ -20,6 +20,7 @@ from ._samples import Extracted
 from ._splats import NoNormalsError, polygons_of
 from ._vtk_algorithm import (
     Algorithm, ContourValues, ScatteredAlgorithm, fill, in_properties, with_counts, with_properties)
+from ._vtk_body import vtkScatteredBodyFilter as vtkScatteredBodyFilter
 from ._vtk_gradient import vtkScatteredGradientFilter as vtkScatteredGradientFilter
 from ._vtk_probe import vtkScatteredGridFilter as vtkScatteredGridFilter
 from ._vtk_probe import vtkScatteredLineFilter as vtkScatteredLineFilter

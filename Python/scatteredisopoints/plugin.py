@@ -8,7 +8,7 @@ from typing import Any, Optional
 from ._paths import PLUGIN, PYTHON_PLUGIN
 
 _PROXIES = ("ScatteredIsopoints", "ScatteredIsosurface", "IsopointSplatPolygons", "ScatteredProbe", "ScatteredLine",
-            "ScatteredGrid", "ScatteredGradient", "ScatteredSlice")
+            "ScatteredGrid", "ScatteredGradient", "ScatteredSlice", "ScatteredBody")
 
 
 def loaded_plugins() -> set[str]:
@@ -25,7 +25,8 @@ def load_plugin(namespace: Optional[dict[str, Any]] = None) -> None:
 
     Loads the compiled plugin if this package was built with ParaView, otherwise the plugin in Python.
     paraview.simple then has ScatteredIsopoints, ScatteredIsosurface, IsopointSplatPolygons, ScatteredProbe,
-    ScatteredLine, ScatteredGrid, ScatteredGradient and ScatteredSlice. Does nothing if the plugin is loaded.
+    ScatteredLine, ScatteredGrid, ScatteredGradient, ScatteredSlice and ScatteredBody. Does nothing if the plugin is
+    loaded.
 
     Parameters
     ----------

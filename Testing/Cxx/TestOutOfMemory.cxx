@@ -4,6 +4,7 @@
 #include "FailingAllocator.h"
 #include "FilterTesting.h"
 
+#include "vtkScatteredBodyFilter.h"
 #include "vtkScatteredGradientFilter.h"
 #include "vtkScatteredGridFilter.h"
 #include "vtkScatteredLineFilter.h"
@@ -186,6 +187,19 @@ TEST(OutOfMemory, Slices)
       auto filter = vtkSmartPointer<vtkScatteredSliceFilter>::New();
       filter->SetInputData(samples);
       filter->SetCutFunction(sphere);
+      return filter;
+    },
+    everythingOf, 10);
+}
+
+TEST(OutOfMemory, Bodies)
+{
+  const auto samples = blocksOf({ newCloud(1200), newCloud(1300) });
+  failEach<vtkScatteredBodyFilter>(
+    [&]()
+    {
+      auto filter = vtkSmartPointer<vtkScatteredBodyFilter>::New();
+      filter->SetInputData(samples);
       return filter;
     },
     everythingOf, 10);

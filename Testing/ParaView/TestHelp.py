@@ -36,7 +36,7 @@ class HelpTest(unittest.TestCase):
             if name.endswith(".html"):
                 (pictures[name],) = re.findall(r'<img src="([^"]+)"[^>]*/><br/><i>[A-Z][^<]+\.</i>', page.decode())
                 self.assertTrue(self.pages[pictures[name]].startswith(b"\x89PNG"), name)
-        for name in ("Slice", "Probe", "Line", "Grid", "Gradient"):
+        for name in ("Slice", "Probe", "Line", "Grid", "Gradient", "Body"):
             self.assertEqual(pictures[f"filters.Scattered{name}.html"], f"filters_{name.lower()}.png")
 
     def test_pages_of_isosurfaces_have_headings(self):

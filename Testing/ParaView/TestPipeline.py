@@ -99,6 +99,16 @@ def slices():
     check(sliced.NumberOfSamples == 40000, "counters")
 
 
+def bodies():
+    """The body of all samples, its pieces and its area, by ParaView's filters."""
+    body = updated(simple.ScatteredBody(Input=READER))
+    check(body.NumberOfSamples == 40000 and number_of_points(body) > 1000, "points on the border of the samples")
+    area = updated(simple.IntegrateVariables(Input=body)).CellData["Area"].GetRange()[0]
+    check(23.5 < area < 27, f"the area of a cube of side 2: {area}")
+    pieces = updated(simple.Connectivity(Input=body))
+    check(pieces.PointData["RegionId"].GetRange() == (0.0, 0.0), "one piece")
+
+
 load(sys.argv[1])
 READER = read_cloud()
-run(isovalues_and_counters, picture, slices, values_at_places)
+run(isovalues_and_counters, picture, slices, bodies, values_at_places)

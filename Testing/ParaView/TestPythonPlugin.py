@@ -21,6 +21,7 @@ ScatteredProbe(registrationName="probe", Input=wavelet, Source=Sphere(Radius=9),
 ScatteredLine(registrationName="line", Input=wavelet, Resolution=30)
 ScatteredGrid(registrationName="grid", Input=wavelet, SamplingDimensions=[7, 8, 9])
 ScatteredGradient(registrationName="gradient", Input=wavelet)
+ScatteredBody(registrationName="body", Input=wavelet, MinimumPieceSize=0.1)
 plane = ScatteredSlice(registrationName="slice", Input=wavelet, DropGaps=0)
 plane.SliceType.Normal = [1, 2, 3]
 UpdatePipeline(proxy=plane)
@@ -37,7 +38,7 @@ from paraview.simple import *
 import hashlib
 from paraview import servermanager
 from vtkmodules.util.numpy_support import vtk_to_numpy
-for name in ("points", "surface", "probe", "line", "grid", "gradient", "slice", "ball"):
+for name in ("points", "surface", "probe", "line", "grid", "gradient", "slice", "ball", "body"):
     source = FindSource(name)
     source.UpdatePipeline()
     data = servermanager.Fetch(source)

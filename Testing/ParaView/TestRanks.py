@@ -21,8 +21,8 @@ from vtkmodules.vtkCommonDataModel import (
 from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 from scatteredisopoints import (
-    vtkScatteredGradientFilter, vtkScatteredGridFilter, vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter,
-    vtkScatteredLineFilter, vtkScatteredProbeFilter, vtkScatteredSliceFilter)
+    vtkScatteredBodyFilter, vtkScatteredGradientFilter, vtkScatteredGridFilter, vtkScatteredIsopointFilter,
+    vtkScatteredIsosurfaceFilter, vtkScatteredLineFilter, vtkScatteredProbeFilter, vtkScatteredSliceFilter)
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../Python"))
 from vtk_data import blocks_of, centers_in, cloud_of, named, set_all  # noqa: E402
@@ -298,6 +298,21 @@ class RanksTest(RanksTestCase):
                 if RANK == 0:
                     self.assertGreater(len(expected), 100)
                     self.assertEqual(sorted(sum(found, [])), sorted(expected))
+
+    def test_bodies(self):
+        points = uniform(3000, 9)
+        points[:, 0] += points[:, 0] > 0.5  # two bodies
+        numbers, mine = np.arange(len(points)), owners(len(points)) == RANK
+        data, whole = poly_data(points[mine], numbers[mine]), poly_data(points, numbers)
+        for options in (dict(), dict(MinimumPieceSize=0.99), dict(DropGaps=0)):
+            here, alone = (set_all(vtkScatteredBodyFilter(), InputData=source, Controller=controller, **options)
+                           for source, controller in ((data, RANKS), (whole, None)))
+            here.UpdatePiece(RANK, SIZE, 0)
+            alone.Update()
+            found, (_, expected) = gather(described(here.GetOutput())[1]), described(alone.GetOutput())
+            if RANK == 0:
+                self.assertGreater(len(expected), 50)
+                self.assertEqual(sorted(sum(found, [])), sorted(expected))
 
     @unittest.skipIf(SIZE == 1, "one rank has one set of options")
     def test_different_options_are_an_error(self):

@@ -94,7 +94,8 @@ def search_finds_each_filter_once():
     grids = "Resample samples to an image", "Resample samples with a data set"
     for words, found, name in (("resample samples", grids, "Scattered Grid"),
                                ("scattered gradient", ("Scattered Gradient",), "Scattered Gradient"),
-                               ("scattered slice", ("Scattered Slice",), "Scattered Slice")):
+                               ("scattered slice", ("Scattered Slice",), "Scattered Slice"),
+                               ("scattered body", ("Scattered Body",), "Scattered Body")):
         shown, _ = play([*search(PARAVIEW, words, *found), APPLY], WAVELET)
         check(any(each.startswith(name.replace(" ", "")) for each in shown), f"{name} was created: {shown}")
     play([*search(PARAVIEW, "plot samples", "Plot samples over a line"), APPLY], WAVELET)  # in a view of its own

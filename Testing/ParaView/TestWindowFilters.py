@@ -151,6 +151,14 @@ def gradients_are_at_the_samples():
     check(np.sqrt(np.mean(errors ** 2)) < 0.1, "the gradient of a sum of sines")
 
 
+def bodies_become_hulls():
+    """Points of both are samples."""
+    shown, body, hull = use("ScatteredBody", [set_property("DropGaps", "false")])
+    check(shown["ScatteredBody1"] == [1, "Surface"], str(shown))
+    check(100 < len(hull) < len(body), f"{len(body)} points of the body, {len(hull)} of its hull")
+    check(np.allclose(body["value"], sum(np.sin(3 * body[f"Points:{i}"]) for i in range(3)), atol=1e-5), "values")
+
+
 def probes_ask_for_their_places():
     """A dialog asks for the data set of the places."""
     shown, first, _ = use("ScatteredProbe", LINEAR, [
@@ -181,4 +189,4 @@ def time_moves_slices():
 
 
 run(slices_follow_the_plane, plots_follow_the_end_of_the_line, images_fill_the_bounds, gradients_are_at_the_samples,
-    probes_ask_for_their_places, time_moves_slices)
+    bodies_become_hulls, probes_ask_for_their_places, time_moves_slices)

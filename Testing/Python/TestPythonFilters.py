@@ -18,7 +18,7 @@ from vtkmodules.vtkCommonTransforms import vtkTransform
 
 NAMES = ("vtkScatteredIsopointFilter", "vtkScatteredIsosurfaceFilter", "vtkIsopointSplatPolygons",
          "vtkScatteredProbeFilter", "vtkScatteredLineFilter", "vtkScatteredGridFilter", "vtkScatteredGradientFilter",
-         "vtkScatteredSliceFilter")
+         "vtkScatteredSliceFilter", "vtkScatteredBodyFilter")
 PAIRS = [(getattr(scatteredisopoints, name), getattr(_vtk, name)) for name in NAMES]
 ISOPOINTS, ISOSURFACE = _vtk.vtkScatteredIsopointFilter, _vtk.vtkScatteredIsosurfaceFilter
 
@@ -111,7 +111,7 @@ class PythonFilters(unittest.TestCase):
         self.assertGreater(with_points, 60)
         self.assertGreater(with_splats, 10)
 
-    def test_places_and_slices_are_the_same(self):
+    def test_places_slices_and_bodies_are_the_same(self):
         """Outputs, counts and messages, of random samples and options."""
         kinds = set()
         for number in range(40):
@@ -171,6 +171,8 @@ class PythonFilters(unittest.TestCase):
                 ("ComputeDivergence", "ComputeVorticity", "ComputeQCriterion"), int(random.integers(2)))),
             dict(CutFunction=function, Interpolation=int(random.integers(2)), Value=(1, 0.1 * size),
                  DropGaps=int(random.integers(2)), Regularize=int(random.integers(2)),
+                 OutputPointsPrecision=int(random.integers(3))),
+            dict(DropGaps=int(random.integers(2)), MinimumPieceSize=float(random.choice([0, 0.3])),
                  OutputPointsPrecision=int(random.integers(3))))))
 
     def without_class(self, texts):

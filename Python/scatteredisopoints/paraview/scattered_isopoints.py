@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """ParaView's plugin in Python, for versions of ParaView without the compiled plugin: Scattered Isopoints,
-Scattered Isosurface, Isopoint Splat Polygons, and Scattered Probe, Line, Grid, Gradient and Slice.
+Scattered Isosurface, Isopoint Splat Polygons, and Scattered Probe, Line, Grid, Gradient, Slice and Body.
 
 Proxies, properties and help come from the compiled plugin's XML. Points have polygons, because there is no
 representation that draws splats. Load the plugin by Tools > Manage Plugins, by setting PV_PLUGIN_PATH to
@@ -85,9 +85,13 @@ class ScatteredSlice(_vtk.vtkScatteredSliceFilter):
     """Slices as triangles."""
 
 
+class ScatteredBody(_vtk.vtkScatteredBodyFilter):
+    """The closed surface of all samples."""
+
+
 if "ScatteredIsopoints" in loaded_plugins():
     print("ScatteredIsopoints, the compiled plugin, is loaded already: the one in Python adds nothing.")
 else:
     for _class in (ScatteredIsopoints, ScatteredIsosurface, IsopointSplatPolygons, ScatteredProbe, ScatteredLine,
-                   ScatteredGrid, ScatteredGradient, ScatteredSlice):
+                   ScatteredGrid, ScatteredGradient, ScatteredSlice, ScatteredBody):
         _class._pvsm_proxy_xml = _adapted(_class.__name__)

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The filter in Python that finds the body of samples: see the compiled class of this name."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+from . import _datasets, _library
+from ._bodies import OPTIONS, make_body
+from ._options import property_name
+from ._progress import part
+from ._slices import arrays_of
+from ._vtk_algorithm import ScatteredAlgorithm, describe_left_out, with_counts, with_properties
+
+LOADED = 0.2  # share of the progress
+
+
+@with_properties("ScatteredBody")
+@with_counts
+class vtkScatteredBodyFilter(ScatteredAlgorithm):
+    """Finds the closed surface of scattered samples: see the compiled class of this name."""
+
+    COUNTS = ("Samples", "SkippedSamples", "ExtractedPoints")
+
+    def _output_class(self, data: Any) -> type:
+        return vtkPolyData
+
+    def _compute(self, data: Any, output: Any) -> list[_library.Message]:
+        samples = self._loaded(data, 0, None, lambda: _datasets.samples_at(data, with_arrays=True), (0.0, LOADED))
+        options = {name: self._values[property_name(name)] for name in (*OPTIONS, "keep_tree")}
+        made = make_body(samples, options, arrays_of(samples, None), None, part(self._advance, LOADED, 1.0))
+        output.ShallowCopy(made.isosurface.polydata)
+        output.GetCellData().RemoveArray("IsCap")  # 1 everywhere
+        self._count_samples(samples)
+        self._counts["ExtractedPoints"] = len(made.isosurface)
+        empty = made.describe_empty()
+        return [*self._describe_skipped(samples, "There is no body. Connect samples with finite positions.",
+                                        "The body there is that of the samples around."),
+                *([] if empty is None else [_library.Message(empty, is_warning=True, cause="empty body")]),
+                *describe_left_out(
+                    samples._differing, "Only arrays are kept that all blocks have, with the same components.")]
