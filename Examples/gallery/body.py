@@ -10,6 +10,7 @@ x, y, z = cloud.points.T
 cloud["density"] = np.sin(5 * x) * np.cos(5 * y) + np.sin(5 * y) * np.cos(5 * z) + np.sin(5 * z) * np.cos(5 * x)
 
 body = cloud.scattered.contour([0.3], "density", capping=True)
+body.save("body.stl")
 print(f"closed: {body.is_manifold}, volume: {body.volume:.3f}")
 
 plotter = pv.Plotter(off_screen=True, window_size=(480, 400))

@@ -183,6 +183,12 @@ def samples_with(data: Any, names: Sequence[str], associations: tuple[int, ...])
     return _gathered(data, block_of, describe)
 
 
+def has_numbers(data: Any) -> bool:
+    """Whether any block has an array of numbers of its points or cells."""
+    return any(True for leaf in leaves(data) if leaf.IsA("vtkDataSet")
+               for association in (POINT, CELL) for _ in named_arrays(leaf.GetAttributes(association)))
+
+
 def samples_at(data: Any, with_arrays: bool) -> DataSamples:
     """The samples of a data object without values: points or, of a data set with arrays of cells alone, the cells."""
 

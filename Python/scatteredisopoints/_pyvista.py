@@ -148,7 +148,7 @@ class ScatteredAccessor:
         >>> bool(body.is_manifold and 0.95 < body.volume < 1.0)
         True
         """
-        samples, arrays = self._samples_with(scalars, preference, progress_bar, threads)
+        samples, arrays = self._samples_with(scalars, preference, progress_bar, threads, needs_arrays=False)
         return body_of(samples, None if scalars is None else arrays, threads, progress_bar, options,
                        stacklevel=3).polydata
 
@@ -228,7 +228,7 @@ class ScatteredAccessor:
         >>> cloud = pv.PolyData(np.random.default_rng(1).random((20000, 3)))
         >>> cloud["height"] = cloud.points[:, 2]
         >>> plane = pv.Plane(center=(0.5, 0.5, 0.5), i_size=0.5, j_size=0.5)
-        >>> bool(np.allclose(cloud.scattered.probe(plane)["height"], 0.5))
+        >>> bool(np.allclose(cloud.scattered.probe(plane, outside=None)["height"], 0.5))
         True
         """
         return self._probe(where, scalars, gradient, method, outside, preference, progress_bar, threads)
@@ -336,8 +336,9 @@ class ScatteredAccessor:
         >>> import pyvista as pv
         >>> cloud = pv.PolyData(np.random.default_rng(1).random((20000, 3)))
         >>> cloud["height"] = cloud.points[:, 2]
-        >>> cloud.scattered.slice("z", (0, 0, 0.3)).bounds[4:]
-        (0.3, 0.3)
+        >>> section = cloud.scattered.slice("z", (0, 0, 0.3))
+        >>> bool(np.allclose(section.points[:, 2], 0.3))
+        True
         """
         if plane is not None:
             raise TypeError("plane is not supported: give its normal and its origin")
@@ -404,7 +405,7 @@ class ScatteredAccessor:
         scalars, preference = options.pop("scalars", None), options.pop("preference", "point")
         offsets, interpolation = options.pop("offsets", 0.0), options.pop("interpolation", "fits")
         threads = options.pop("threads", None)
-        samples, arrays = self._samples_with(scalars, preference, progress, threads)
+        samples, arrays = self._samples_with(scalars, preference, progress, threads, needs_arrays=False)
         if origin is None and function is None:
             origin = _datasets.bounds_of(self._dataset).mean(axis=1)
         result = sliced(samples, normal, origin, None if scalars is None else arrays, function, offsets, interpolation,
@@ -482,14 +483,19 @@ class ScatteredAccessor:
         _add_arrays(result.point_data, {**values, **computed})
         return result
 
-    def _samples_with(self, scalars: Any, preference: str, progress: Progress, threads: Optional[int]
-                      ) -> tuple[Samples, dict[str, Any]]:
-        """The samples without values, kept for the next call, and the arrays to probe."""
+    def _samples_with(self, scalars: Any, preference: str, progress: Progress, threads: Optional[int],
+                      needs_arrays: bool = True) -> tuple[Samples, dict[str, Any]]:
+        """The samples without values, kept for the next call, and the arrays to probe.
+
+        needs_arrays: whether data without any have no samples.
+        """
         data = self._checked(preference)
         associations: tuple[int, ...] = (CELL, POINT) if preference == "cell" else (POINT, CELL)
         names = [scalars] if isinstance(scalars, str) else scalars if are_names(scalars) else []
         if scalars is not None and not names:
             associations = (_datasets.association_of(data, np.shape(scalars)),)
+        elif scalars is None and not needs_arrays and not _datasets.has_numbers(data):
+            associations = associations[:1]
         samples = _kept_samples(
             data, ("without values", *names, *associations),
             lambda: _datasets.samples_with(data, names, associations), progress, threads, True)

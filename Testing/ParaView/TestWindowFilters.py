@@ -94,7 +94,7 @@ def play_samples(events, before="", after=""):
     return shown, said
 
 
-def use(name, change, chosen=(), before=""):
+def use(name, change, chosen=(), before="", after=""):
     """A user applies a filter, changes it, undoes and redoes that, and saves the state. Scripts of pvbatch repeat that.
     @returns the output shown, and the data before and after the change"""
     state = str(FOLDER / "state.pvsm")
@@ -102,7 +102,7 @@ def use(name, change, chosen=(), before=""):
     shown, said = play_samples([
         choose(name), *chosen, APPLY, *saved("first"), *change, APPLY, UNDO, *saved("undone"), *change, APPLY, UNDO,
         REDO, *saved("changed"), event(WINDOW + "menubar/menu_File", "activate", "actionFileSaveServerState"),
-        event(WINDOW + "FileSaveServerStateDialog", "filesSelected", state)], before)
+        event(WINDOW + "FileSaveServerStateDialog", "filesSelected", state)], before, after)
     first, undone, changed = map(read_table, ("first", "undone", "changed"))
     check(equal(first, undone), "undo")
     check(not equal(first, changed), "redo")
@@ -151,9 +151,17 @@ def gradients_are_at_the_samples():
     check(np.sqrt(np.mean(errors ** 2)) < 0.1, "the gradient of a sum of sines")
 
 
+# The samples around a ball.
+HOLLOW = """
+active = simple.Clip(Input=samples, ClipType="Sphere", Invert=0)
+active.ClipType.Center, active.ClipType.Radius = 3 * [0.5], 0.35
+simple.Show(active, view)
+"""
+
+
 def bodies_become_hulls():
     """Points of both are samples."""
-    shown, body, hull = use("ScatteredBody", [set_property("DropGaps", "false")])
+    shown, body, hull = use("ScatteredBody", [set_property("DropGaps", "false")], after=HOLLOW)
     check(shown["ScatteredBody1"] == [1, "Surface"], str(shown))
     check(100 < len(hull) < len(body), f"{len(body)} points of the body, {len(hull)} of its hull")
     check(np.allclose(body["value"], sum(np.sin(3 * body[f"Points:{i}"]) for i in range(3)), atol=1e-5), "values")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """PyVista's accessor, found through the installed package: on vtk, and on cvista."""
 
+import doctest
 import gc
 import unittest
 import warnings
@@ -9,7 +10,7 @@ from unittest import mock
 
 import numpy as np
 import pyvista as pv
-from scatteredisopoints import Samples, _pyvista, contour, gradient, probe, slice_samples
+from scatteredisopoints import Samples, _pyvista, body, contour, gradient, probe, slice_samples
 
 
 def cloud(count=20000):
@@ -435,6 +436,29 @@ class Probing(unittest.TestCase):
                             (lambda: data.scattered.slice_implicit(None), TypeError)):
             with self.assertRaises(error):
                 call()
+
+    def test_bodies_and_slices_need_no_arrays(self):
+        positions = np.random.default_rng(1).random((3000, 3))
+        bare = pv.PolyData(positions)
+        surface = bare.scattered.body()
+        self.assertTrue(surface.is_manifold and 0.9 < surface.volume < 1)
+        np.testing.assert_array_equal(surface.points, body(positions).points)
+        self.assertEqual(bare.scattered.body(preference="cell").n_points, surface.n_points)  # vertex cells
+        self.assertGreater(bare.scattered.slice("x").n_points, 100)
+        self.assertGreater(pv.MultiBlock([bare, bare.translate((2, 0, 0))]).scattered.body().n_points, surface.n_points)
+        grid = pv.ImageData(dimensions=(5, 6, 7))
+        self.assertAlmostEqual(grid.scattered.body().volume, 4 * 5 * 6)
+        grid.cell_data["number"] = np.arange(grid.n_cells)
+        self.assertAlmostEqual(grid.scattered.body().volume, 3 * 4 * 5)
+        with self.assertRaisesRegex(ValueError, "no point or cell array of numbers"):
+            bare.scattered.probe(positions)
+
+    def test_docstrings(self):
+        runner = doctest.DocTestRunner()
+        for test in doctest.DocTestFinder().find(_pyvista.ScatteredAccessor, "scattered", globs={}):
+            runner.run(test)
+        self.assertGreater(runner.tries, 20)
+        self.assertEqual(runner.failures, 0)
 
     def test_samples_are_kept(self):
         data, inside = self.cloud(), [[0.5, 0.5, 0.5]]
