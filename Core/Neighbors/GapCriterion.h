@@ -46,6 +46,9 @@ public:
   /// @param ratio of the edge's length to that of its part across the gap, at least 1
   static GapCriterion strong(double ratio = 1.0) { return { 4.0 * ratio, 3 }; }
 
+  /// The criterion whose dense ends have samples behind them, within twice the edge's length.
+  static GapCriterion beyond() { return { 0.5, 2 }; }
+
   /// Whether the edge between two samples is rejected. Symmetric. Independent of tree refinement.
   /// @param bounds of the tree's samples; computed if a search visits many nodes
   /// @throws MissingNode at a node whose samples another rank holds
@@ -236,7 +239,7 @@ private:
 
   GapCriterion Weak = GapCriterion::weak();
   GapCriterion Around{ 4.0, 3, 0.0 };
-  GapCriterion Beyond{ 0.5, 2 };
+  GapCriterion Beyond = GapCriterion::beyond();
 };
 
 } // namespace isopoint

@@ -13,6 +13,8 @@ namespace isopoint
 /// the seven points that divide it into eight equal parts has no samples: its radius is a factor
 /// times the spacing, the distance from an end to the tenth nearest position, the greater of both
 /// ends. Long edges of slivers on the convex hull pass, because samples inside are close to them.
+/// Rejects all edges from rim to rim, with nothing behind either end, if the ball is twice as
+/// large.
 template <class TCriterion>
 class VoidCriterion
 {
@@ -43,10 +45,15 @@ public:
     // The other criterion takes long for edges of slivers, which are long.
     return this->mayDrop(own, other, spacing) &&
            this->isBare(tree, positionOf(own), positionOf(other), this->Factor * spacing) &&
-           this->Criterion.drops(tree, bounds, own, other);
+           (this->Criterion.drops(tree, bounds, own, other) ||
+             (this->isBare(tree, positionOf(own), positionOf(other), bareFactor * spacing) &&
+               !GapCriterion::beyond().isDense(tree, bounds, own, other) &&
+               !GapCriterion::beyond().isDense(tree, bounds, other, own)));
   }
 
 private:
+  static constexpr double bareFactor = 2.0;
+
   /// Whether the edge is so long that a ball on it may contain neither end.
   /// @param spacing at one end, or the greater one
   template <class TSample>

@@ -182,6 +182,19 @@ class ContourTest(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "unknown option capping: there are drop_gaps"):
             body(positions, capping=True)
 
+    def test_bodies_have_no_webs(self):
+        """A tank of water with a trough between two crests, whose walls have nothing behind them."""
+        spacing = 0.02
+        axes = [np.arange(0, end, spacing) for end in (2, 0.4, 1)]
+        water = np.stack(np.meshgrid(*axes, indexing="ij"), -1).reshape(-1, 3)
+        water += np.random.default_rng(8).normal(0, 0.1 * spacing, water.shape)
+        x, z = water[:, 0], water[:, 2]
+        water = water[z < 0.6 + 0.075 * np.cos(np.pi * x) + 0.0433 * np.cos(2 * np.pi * x)]
+        surface = body(water)
+        centers = surface.points[surface.triangles].mean(axis=1)
+        near = np.array([np.sqrt(((water - center) ** 2).sum(axis=1).min()) for center in centers])
+        self.assertLess(near.max(), 3 * spacing)
+
     def test_gradient_direction(self):
         """The body at or below the isovalue is that of the negated values, which only the values at points show."""
         positions, _ = samples(7000, np.float64)
