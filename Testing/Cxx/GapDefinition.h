@@ -51,10 +51,15 @@ public:
       const std::size_t y = this->CellOf.at(second);
       const bool isWeak = this->isWeak(x, y);
       const bool isStrong = bruteforce::isDroppedByGap(this->Cells, x, y, 4.0, 3);
-      const double bare = this->SpansVoids && (isWeak || isStrong) ? this->bareShare(x, y) : 0.0;
+      const bool isOfRims =
+        this->SpansVoids && this->isEmptyBehind(x, y) && this->isEmptyBehind(y, x);
+      const bool mayCount = isWeak || isStrong || isOfRims;
+      const double bare = this->SpansVoids && mayCount ? this->bareShare(x, y) : 0.0;
       const auto spansVoid = [&](double factor)
       { return !this->SpansVoids || this->isDenseAround(x, y, factor / bare); };
-      found->second = { isWeak && spansVoid(0.7), isStrong && spansVoid(1.0) };
+      const bool isFromRimToRim = isOfRims && spansVoid(2.0);
+      found->second = { (isWeak && spansVoid(0.7)) || isFromRimToRim,
+        (isStrong && spansVoid(1.0)) || isFromRimToRim };
     }
     return found->second;
   }
@@ -70,8 +75,12 @@ private:
   bool leavesBody(std::size_t x, std::size_t y) const
   {
     return bruteforce::isDense(this->Cells, y, x, 2.0, 2) &&
-           bruteforce::isDense(this->Cells, x, y, 4.0, 3, 0.0) &&
-           !bruteforce::isDense(this->Cells, x, y, 0.5, 2);
+           bruteforce::isDense(this->Cells, x, y, 4.0, 3, 0.0) && this->isEmptyBehind(x, y);
+  }
+
+  bool isEmptyBehind(std::size_t x, std::size_t y) const
+  {
+    return !bruteforce::isDense(this->Cells, x, y, 0.5, 2);
   }
 
   /// Whether the edge is longer than a factor times the distance to the tenth nearest position,
