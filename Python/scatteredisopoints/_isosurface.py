@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+import importlib
 import math
+import os
 import warnings
 from ctypes import byref, c_void_p
 from typing import Any, Callable, Iterable, Mapping, Optional, Union
@@ -91,6 +93,38 @@ class Isosurface:
         if self._polydata is None:
             self._polydata = self._make_polydata(self)
         return self._polydata
+
+    def to_pyvista(self) -> Any:
+        """A pyvista.PolyData that shares the arrays' memory. Raises ImportError if PyVista is not installed."""
+        return importlib.import_module("pyvista").wrap(self.polydata)
+
+    def to_trimesh(self) -> Any:
+        """A trimesh.Trimesh of the triangles as they are, without arrays. Raises ImportError if trimesh is not
+        installed, ValueError for points."""
+        if self.triangles is None:
+            raise ValueError("Points are no mesh: extract triangles.")
+        return importlib.import_module("trimesh").Trimesh(self.points, self.triangles, process=False)
+
+    def save(self, path: Union[str, os.PathLike[str]]) -> None:
+        """Writes a file with all arrays that its format can hold. If this fails, an earlier one stays as it was.
+
+        Parameters
+        ----------
+        path
+            Its ending says the format: .ply, .stl, .obj, .npz or .csv; with PyVista also .vtk, .vtp and .vtu, and with
+            meshio its own.
+
+        Raises
+        ------
+        ValueError
+            If no installed package writes this format.
+        OSError
+            If the file cannot be written.
+        """
+        from ._writing import write_file, writer_for  # which imports this module
+
+        name = os.fspath(path)
+        write_file(writer_for(name, self.are_triangles), name, self)
 
     @property
     def pieces(self) -> tuple[Piece, ...]:

@@ -116,7 +116,7 @@ class Options(ctypes.Structure):
         "triangles", "projection", "normal_method", "drop_gaps", "compute_normals",
         "compute_gradients", "compute_projection_orders", "output_points_precision",
         "number_of_neighbors", "compute_splats")),
-        ("angle", c_double), ("minimum_spacing", c_double), ("keep_tetrahedra", c_int32),
+        ("angle", c_double), ("keep_tetrahedra", c_int32),
         ("regularize", c_int32), ("keep_hull_slivers", c_int32), ("capping", c_int32),
         ("minimum_piece_size", c_double)]
 

@@ -23,7 +23,7 @@ CONSTANTS = {
     "output_points_precision": {"SINGLE_PRECISION": 0, "DOUBLE_PRECISION": 1, "DEFAULT_PRECISION": 2},
 }
 
-_OF_POINTS = ("angle", "compute_splats", "minimum_spacing", "number_of_neighbors")
+_OF_POINTS = ("angle", "compute_splats", "number_of_neighbors")
 _OF_TRIANGLES = ("capping", "minimum_piece_size", "regularize")
 OF_SLICES = ("regularize", "drop_gaps", "output_points_precision")
 _NOT_OPTIONS = ("size", "triangles", "keep_tetrahedra", "keep_hull_slivers")

@@ -9,7 +9,7 @@ import threading
 import warnings
 import weakref
 from collections import OrderedDict
-from typing import Any, Callable, Collection, Iterable, Mapping, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Callable, Collection, Iterable, Mapping, Optional, Sequence, Union
 
 import numpy as np
 import pyvista as pv
@@ -25,6 +25,9 @@ from ._progress import Progress, shown_progress
 from ._samples import Samples
 from ._slices import sliced
 from ._splats import polygons_of
+
+if TYPE_CHECKING:
+    from ._option_types import BodyOptions, ContourOptions, Unpack
 
 
 # Parameters of the accessor by those of contour().
@@ -51,7 +54,7 @@ class ScatteredAccessor:
         preference: str = "point",
         progress_bar: bool = False,
         threads: Optional[int] = None,
-        **options: Any,
+        **options: Unpack[ContourOptions],
     ) -> pv.PolyData:
         """Extract isosurfaces from scattered samples.
 
@@ -123,7 +126,7 @@ class ScatteredAccessor:
         preference: str = "point",
         progress_bar: bool = False,
         threads: Optional[int] = None,
-        **options: Any,
+        **options: Unpack[BodyOptions],
     ) -> pv.PolyData:
         """Find the closed surface of all samples, from their positions alone.
 

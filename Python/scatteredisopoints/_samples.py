@@ -10,7 +10,7 @@ import warnings
 import weakref
 from ctypes import byref, c_double, c_void_p
 from dataclasses import dataclass, replace
-from typing import Any, Iterable, Iterator, Mapping, Optional, Union
+from typing import TYPE_CHECKING, Any, Iterable, Iterator, Mapping, Optional, Union
 
 import numpy as np
 
@@ -25,6 +25,9 @@ from ._options import (
     CONSTANTS, direction_sign, hint, make_options, make_probe_options, switch, thread_count)
 from ._progress import Progress, shown_progress
 from ._slices import sliced
+
+if TYPE_CHECKING:
+    from ._option_types import BodyOptions, ContourOptions, SliceOptions, Unpack
 
 _VALUES = {1: "values", -1: "negated values"}
 """The keys of the samples' own values by their sign: see Samples._hold()."""
@@ -232,13 +235,13 @@ class Samples:
 
     def contour(
         self,
-        isovalues: Union[float, Iterable[float]] = 0.0,
+        isovalues: Union[float, Iterable[float]],
         *,
         triangles: bool = False,
         arrays: Optional[Mapping[str, Any]] = None,
         threads: Optional[int] = None,
         progress: Progress = None,
-        **options: Any,
+        **options: Unpack[ContourOptions],
     ) -> Isosurface:
         """Extracts isosurfaces: :func:`contour` describes parameters, result and errors.
 
@@ -314,7 +317,8 @@ class Samples:
         return surface
 
     def body(
-        self, arrays: Any = None, *, threads: Optional[int] = None, progress: Progress = None, **options: Any
+        self, arrays: Any = None, *, threads: Optional[int] = None, progress: Progress = None,
+        **options: Unpack[BodyOptions]
     ) -> Isosurface:
         """The closed surface of all samples: :func:`body` describes parameters, result and errors.
 
@@ -338,7 +342,7 @@ class Samples:
         interpolation: str = "fits",
         threads: Optional[int] = None,
         progress: Progress = None,
-        **options: Any,
+        **options: Unpack[SliceOptions],
     ) -> Isosurface:
         """Slices the samples: :func:`slice_samples` describes parameters, result and errors.
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files of isosurfaces, for the command line: see writer_for() and write_file()."""
+"""Files of isosurfaces: see writer_for() and write_file()."""
 
 from __future__ import annotations
 

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import importlib
-from typing import Any, Iterable, Mapping, Optional, Union
+from typing import TYPE_CHECKING, Any, Iterable, Mapping, Optional, Union
 
 from ._arrays import isovalues_of, package_of
 from ._bodies import body_of
@@ -14,17 +14,20 @@ from ._progress import Progress, part, shown_progress
 from ._samples import Samples
 from .probing import samples_for
 
+if TYPE_CHECKING:
+    from ._option_types import BodyOptions, ContourOptions, Unpack
+
 
 def contour(
     positions: Any,
     values: Any = None,
-    isovalues: Union[float, Iterable[float]] = 0.0,
+    isovalues: Union[float, Iterable[float], None] = None,
     *,
     triangles: bool = False,
     arrays: Optional[Mapping[str, Any]] = None,
     threads: Optional[int] = None,
     progress: Progress = None,
-    **options: Any,
+    **options: Unpack[ContourOptions],
 ) -> Isosurface:
     """Extracts isosurfaces from scattered samples, as points or as triangles.
 
@@ -39,7 +42,8 @@ def contour(
         non-finite or masked value are skipped. For a data set: the name of a point or cell array, an array
         with one value per point or cell, or None for the active scalars of its points.
     isovalues
-        One or several (any iterable), in the unit of the values.
+        One or several (any iterable), in the unit of the values: 10 is the isovalue 10. The accessor of PyVista's
+        data takes a number of surfaces instead, as PyVista does.
     triangles
         Whether to connect points by triangles instead of giving them radii.
     arrays
@@ -57,8 +61,7 @@ def contour(
         normal_method="NORMALS_FROM_PLANES" (or "NORMALS_FROM_FIELD"),
         output_points_precision="SINGLE_PRECISION" (or "DOUBLE_PRECISION"); gradient_direction="ascent", as in
         scikit-image: the body has values at or below the isovalue, as that of a distance does, and normals, triangles
-        and caps are those of the negated values. Of points only: minimum_spacing=0.5,
-        compute_splats=False, angle=54.7, number_of_neighbors=12. Of triangles only: regularize=False;
+        and caps are those of the negated values. Of points only: compute_splats=False, angle=54.7, number_of_neighbors=12. Of triangles only: regularize=False;
         capping=True, which closes the body of the samples at or above the isovalue where they end; and
         minimum_piece_size=0.01, the least area of a connected component as a share of the largest one's, which leaves
         out droplets and the bubbles in them.
@@ -98,6 +101,8 @@ def contour(
     data = data_object(positions)
     if data is None and values is None:
         raise TypeError("values are missing: one for each position")
+    if isovalues is None:
+        raise TypeError("isovalues are missing: give one or several numbers")
     controller = options.get("controller")
     levels = isovalues_of(isovalues)
     # The filters' output does not tell the isovalue of each triangle, which areas and volumes need.
@@ -125,7 +130,7 @@ def body(
     *,
     threads: Optional[int] = None,
     progress: Progress = None,
-    **options: Any,
+    **options: Unpack[BodyOptions],
 ) -> Isosurface:
     """Finds the closed surface of all samples, such as particles, from their positions alone.
 

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Iterable, Optional, Union
+from typing import TYPE_CHECKING, Any, Iterable, Optional, Union
 
 from ._cuts import Normal
 from ._isosurface import Isosurface
@@ -11,6 +11,9 @@ from ._progress import Progress, part, shown_progress
 from ._samples import Samples
 from ._slices import sliced
 from .probing import samples_for
+
+if TYPE_CHECKING:
+    from ._option_types import SliceOptions, Unpack
 
 
 def slice_samples(
@@ -24,7 +27,7 @@ def slice_samples(
     interpolation: str = "fits",
     threads: Optional[int] = None,
     progress: Progress = None,
-    **options: Any,
+    **options: Unpack[SliceOptions],
 ) -> Isosurface:
     """Slices scattered samples along a plane or another implicit function: triangles with all arrays, which end
     where the samples end.

@@ -6,6 +6,7 @@ import copy
 import ctypes
 import doctest
 import gc
+import importlib
 import importlib.util
 import inspect
 import os
@@ -16,6 +17,7 @@ import re
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import unittest
 import warnings
@@ -25,7 +27,7 @@ from unittest import mock
 import numpy as np
 import scatteredisopoints
 from scatteredisopoints import (
-    Interpolator, Isosurface, Samples, _library, _options, contour, contouring, gradient, probe)
+    Interpolator, Isosurface, Samples, _bodies, _library, _options, contour, contouring, gradient, probe)
 
 HEADER = pathlib.Path(__file__).parents[2] / "Library/isopoint.h"
 
@@ -175,7 +177,7 @@ class Arrays(unittest.TestCase):
 
     def test_few_samples(self):
         with self.assertRaisesRegex(ValueError, "no samples"):
-            contour(np.zeros((0, 3)), np.zeros(0))
+            contour(np.zeros((0, 3)), np.zeros(0), 0.3)
         for count in (1, 2, 3, 4, 5):
             positions, values = cloud(count)
             with warnings.catch_warnings():
@@ -198,7 +200,7 @@ class Arrays(unittest.TestCase):
                 ((positions, 3.0), ValueError, r"values.*\(\).*\(100,\)"),
                 ((positions, values[:99]), ValueError, r"\(99,\).*\(100,\)"),
                 ((positions, positions), ValueError, r"values.*\(100, 3\)"),
-                ((positions,), TypeError, "values.*missing"),
+                ((positions, None), TypeError, "values.*missing"),
                 ((positions * 1j, values), TypeError, "positions.*complex128"),
                 ((positions, ["a"] * 100), TypeError, "values.*type"),
                 ((positions, np.full(100, None)), TypeError, "values.*object"),
@@ -206,7 +208,7 @@ class Arrays(unittest.TestCase):
                 *(((positions, values, wrong), TypeError, "isovalues|not numbers")
                   for wrong in ("0.3", None, [1j], ["0.3"]))):
             with self.subTest(text=text), self.assertRaisesRegex(error, text):
-                contour(*arguments)
+                contour(*arguments, *([0.3] if len(arguments) == 2 else []))
         for options, error, text in (
                 (dict(threads=0), ValueError, "threads"),
                 *((dict(threads=wrong), TypeError, f"threads cannot be {wrong!r}: give a whole number")
@@ -227,7 +229,7 @@ class Arrays(unittest.TestCase):
                 (dict(contour_blocks=True), TypeError, "each block"), (dict(angle="30"), ValueError, "a number"),
                 *([] if contouring.compiled_filters() else [(dict(controller=object()), TypeError, "controller")])):
             with self.subTest(options=list(options)), self.assertRaisesRegex(error, text):
-                contour(positions, values, **options)
+                contour(positions, values, 0.3, **options)
 
 
 class Results(unittest.TestCase):
@@ -363,6 +365,38 @@ class Results(unittest.TestCase):
             contour(*cloud(100), np.arange(2.0, 5002.0))
         self.assertRegex(str(caught.warning), "No isosurface at 2, 3, .*and 4990 more: the array is from")
         self.assertLess(len(str(caught.warning)), 500)
+
+    def test_isovalues_are_always_given(self):
+        positions, values = cloud(100)
+        with self.assertRaisesRegex(TypeError, "isovalues are missing: give one or several numbers"):
+            contour(positions, values)
+        with self.assertRaises(TypeError):
+            Samples(positions, values).contour()
+
+    def test_option_types_name_all_options(self):
+        """Without typing_extensions, which only type checkers need."""
+        with mock.patch.dict(sys.modules, typing_extensions=mock.MagicMock()):
+            types = importlib.import_module("scatteredisopoints._option_types")
+        contour_options = {*_options.option_names(False), *_options.option_names(True)}
+        self.assertEqual({*types.ContourOptions.__annotations__}, contour_options | {"controller", "gradient_direction"})
+        self.assertEqual({*types.SliceOptions.__annotations__}, {*_options.OF_SLICES})
+        self.assertEqual({*types.BodyOptions.__annotations__}, {*_bodies.OPTIONS})
+
+    def test_files_and_meshes(self):
+        surface = contour(*cloud(2000), 0.4, triangles=True)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "surface.npz"
+            surface.save(path)
+            with np.load(path) as file:
+                np.testing.assert_array_equal(file["triangles"], surface.triangles)
+            with self.assertRaisesRegex(ValueError, "the format of .*surface.xyz is unknown: there are .ply"):
+                surface.save(f"{folder}/surface.xyz")
+            self.assertEqual([each.name for each in path.parent.iterdir()], ["surface.npz"])
+        with mock.patch.dict(sys.modules, trimesh=mock.MagicMock()) as modules:
+            self.assertIs(surface.to_trimesh(), modules["trimesh"].Trimesh.return_value)
+            modules["trimesh"].Trimesh.assert_called_once_with(surface.points, surface.triangles, process=False)
+        with self.assertRaisesRegex(ValueError, "Points are no mesh: extract triangles"):
+            contour(*cloud(2000), 0.4).to_trimesh()
 
     def test_docstrings(self):
         for owner in (contouring, scatteredisopoints.probing, scatteredisopoints._samples):
