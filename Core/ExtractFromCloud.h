@@ -122,10 +122,6 @@ ExtractedIsosurface findPoints(const Execution& execution, SampleCloud<TSample>&
     cloud.neighborhoods, itemCount, request.isosurface);
   const bool hasFits = request.isosurface.fit.has_value();
   const std::size_t dropped = found.droppedEdges;
-  if (request.minimumSpacing > 0.0 && hasFits)
-  {
-    ranks.thinOut(execution, request.minimumSpacing, found);
-  }
   throwIfAborted(execution);
   const Execution part = partOf(execution, splatsBegin, 1.0);
   TSurroundings surroundings(

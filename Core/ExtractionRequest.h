@@ -17,8 +17,6 @@ namespace isopoint
 struct ExtractionRequest
 {
   IsosurfaceRequest isosurface;
-  /// How much thin() drops, from 0 (nothing) to 1. Requires fits.
-  double minimumSpacing = 0.0;
   std::optional<SplatOptions> splats = std::nullopt;
   /// Whether isopoints are the vertices of triangles: the isosurface of the Delaunay
   /// tetrahedralization of the samples (docs/triangles.md). Then angle and minimum spacing have no

@@ -25,7 +25,7 @@ bool hasNormalsFromField(const Options& options)
   switch (static_cast<NormalMethod>(options.normalMethod))
   {
     case NormalMethod::Automatic:
-      return options.projection != 0 || options.computeGradients || options.minimumSpacing > 0.0;
+      return options.projection != 0 || options.computeGradients;
     case NormalMethod::Field:
       return true;
     default:
@@ -33,7 +33,7 @@ bool hasNormalsFromField(const Options& options)
   }
 }
 
-/// The fit that the projection or an output requires, if any: thinning and field normals require
+/// The fit that the projection or an output requires, if any: field normals require
 /// polynomials; other splats and fit orders at least the sample spacing.
 std::optional<FitRequest> fitRequestOf(const Options& options)
 {
@@ -41,8 +41,7 @@ std::optional<FitRequest> fitRequestOf(const Options& options)
   {
     return FitRequest{ static_cast<FitOrder>(options.projection), true };
   }
-  if (options.computeGradients || options.minimumSpacing > 0.0 ||
-      (needsSplats(options) && hasNormalsFromField(options)))
+  if (options.computeGradients || (needsSplats(options) && hasNormalsFromField(options)))
   {
     return FitRequest{ FitOrder::Cubic, false };
   }
@@ -104,7 +103,6 @@ Options effectiveOptions(const Options& options)
   if (options.triangles)
   {
     effective.angle = defaults.angle;
-    effective.minimumSpacing = defaults.minimumSpacing;
     effective.numberOfNeighbors = defaults.numberOfNeighbors;
     effective.computeSplats = false;
   }
@@ -129,7 +127,6 @@ ExtractionRequest requestOf(const Options& options)
   request.isosurface.keepsHullSlivers = options.keepHullSlivers;
   request.isosurface.caps = options.capping;
   request.isosurface.minimumPieceSize = options.minimumPieceSize;
-  request.minimumSpacing = options.minimumSpacing;
   request.triangles = options.triangles;
   if (needsSplats(options))
   {

@@ -40,7 +40,6 @@ struct Options
 
   // Only for points:
   double angle = defaultAngle;
-  double minimumSpacing = 0.0;
   int numberOfNeighbors = defaultNeighborCount;
   bool computeSplats = true;
 
@@ -82,9 +81,6 @@ inline constexpr Option<int> outputPointsPrecision{ "OutputPointsPrecision",
   &Options::outputPointsPrecision, static_cast<int>(Precision::Single),
   static_cast<int>(Precision::Default) };
 inline constexpr Option<double> angle{ "Angle", &Options::angle, 0.0, 180.0 }; // degrees
-/// In units of the sample spacing.
-inline constexpr Option<double> minimumSpacing{ "MinimumSpacing", &Options::minimumSpacing, 0.0,
-  1.0 };
 inline constexpr Option<int> numberOfNeighbors{ "NumberOfNeighbors", &Options::numberOfNeighbors, 3,
   1000 };
 inline constexpr Option<bool> computeSplats{ "ComputeSplats", &Options::computeSplats, false,
@@ -119,7 +115,6 @@ void forEachOption(const Options& options, const Visitor& visit)
   else
   {
     visit(option::angle);
-    visit(option::minimumSpacing);
     visit(option::numberOfNeighbors);
     visit(option::computeSplats);
   }

@@ -121,8 +121,7 @@ public:
   /**
    * The source of the normals:
    * - AUTOMATIC_NORMALS: NORMALS_FROM_FIELD if fits are made anyway, for a Projection other than
-   *   NO_PROJECTION, for ComputeGradients or for a MinimumSpacing; otherwise the faster
-   *   NORMALS_FROM_PLANES.
+   *   NO_PROJECTION or for ComputeGradients; otherwise the faster NORMALS_FROM_PLANES.
    * - NORMALS_FROM_FIELD: the gradient of the fit that Projection selects (CUBIC_FIT for
    *   NO_PROJECTION), or of a simpler polynomial through the samples if both agree within the error
    *   of the former: an affine function, as in noise, or one of degree two. Without a fit, the

@@ -28,8 +28,6 @@ double vtkScatteredIsopointFilter::GetAngle()
 }
 
 vtkIsopointOptionMacro(
-  vtkScatteredIsopointFilter, MinimumSpacing, double, isopoint::option::minimumSpacing);
-vtkIsopointOptionMacro(
   vtkScatteredIsopointFilter, NumberOfNeighbors, int, isopoint::option::numberOfNeighbors);
 vtkIsopointOptionMacro(
   vtkScatteredIsopointFilter, ComputeSplats, vtkTypeBool, isopoint::option::computeSplats);

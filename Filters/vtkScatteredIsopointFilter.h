@@ -25,8 +25,8 @@
  * gradient of the polynomial, or in noise of a simpler one, gives the normal. Values of integer
  * arrays are taken as rounded, so that steps of 1 are not fitted as detail. Fits only depend on
  * samples in the regions that touch those of the edge's ends, and in regions that touch these.
- * Projection, thinning (see SetMinimumSpacing()) and the gap criterion (see SetDropGaps()) are not
- * part of [RL06]. docs/algorithm.md in the source distribution defines the result exactly.
+ * Projection and the gap criterion (see SetDropGaps()) are not part of [RL06]. docs/algorithm.md in
+ * the source distribution defines the result exactly.
  *
  * The filter guarantees:
  * 1. The output, including the order of the points, depends only on the input and the options, to
@@ -121,33 +121,6 @@ public:
    */
   virtual void SetAngle(double degrees);
   virtual double GetAngle();
-  ///@}
-
-  ///@{
-  /**
-   * The minimum spacing of isopoints on one sheet of the surface, in units of the sample spacing.
-   * Fewer isopoints with larger splats then cover the surface. Isopoints are visited in the order
-   * of the output, and dropped if close to one that was kept. Let r be MinimumSpacing times the
-   * smaller of the sample spacings around two isopoints; they are close if
-   * - both have a fit that describes a smooth surface (see SetProjection(); CUBIC_FIT for
-   *   NO_PROJECTION): one of degree two or more, whose gradient certainly differs from that of an
-   *   affine function,
-   * - their distance is less than r,
-   * - each lies within r / 4 of the tangent plane of the other, and
-   * - the gradients of their fits differ by less than 25 degrees (their cosine is 0.906 or more).
-   *
-   * The sample spacing around an isopoint is the mean, over the ends of its edge, of the distance
-   * within which two fifths of the neighbors lie. Close sheets and the two sides of a crease do not
-   * thin each other out, the surface stays dense where it is strongly curved, and nothing is
-   * dropped where no fit holds, in noise, or with LINEAR_FIT.
-   *
-   * 0.5 is a sensible value: it keeps about half of the isopoints and opened no holes in smooth
-   * surfaces in tests; larger values open some. About 70 percent remain at 0.25, 20 percent at 1.
-   * The surface may end earlier at its border, by up to the minimum spacing. 0 drops nothing.
-   * Range: 0 to 1; other values are clamped, and NaN is an error in the next update. Default: 0.
-   */
-  virtual void SetMinimumSpacing(double spacing);
-  virtual double GetMinimumSpacing();
   ///@}
 
   ///@{

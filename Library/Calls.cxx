@@ -145,7 +145,6 @@ void forEachMember(const Visitor& visit)
   visit(&C::number_of_neighbors, &Core::numberOfNeighbors);
   visit(&C::compute_splats, &Core::computeSplats);
   visit(&C::angle, &Core::angle);
-  visit(&C::minimum_spacing, &Core::minimumSpacing);
   visit(&C::keep_tetrahedra, &Core::keepTetrahedra);
   visit(&C::regularize, &Core::regularize);
   visit(&C::keep_hull_slivers, &Core::keepHullSlivers);

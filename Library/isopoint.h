@@ -143,8 +143,7 @@ typedef struct isopoint_options
   /* Points only: */
   int32_t number_of_neighbors; /* points used to fit a plane, 3 to 1000. Default: 12 */
   int32_t compute_splats;      /* whether to compute splats of points. Default: 1 */
-  double angle;           /* of the angle criterion, in degrees, 0 to 180. Default: 54.7 */
-  double minimum_spacing; /* of points, in sample spacings, 0 to 1; 0: keep all. Default: 0 */
+  double angle;                /* of the angle criterion, in degrees, 0 to 180. Default: 54.7 */
   /* Triangles only: whether to keep the tetrahedra near the surface, unless there are many, which
    * speeds up the next isovalue. The result is the same. */
   int32_t keep_tetrahedra; /* Default: 1 */

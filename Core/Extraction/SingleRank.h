@@ -5,7 +5,6 @@
 #include "Core/Extraction/ExtractionContext.h"
 #include "Core/Extraction/Isosurface.h"
 #include "Core/Extraction/NeighborhoodFits.h"
-#include "Core/Extraction/Thinning.h"
 #include "Core/Tree/TreeRefinement.h"
 
 #include <cstddef>
@@ -52,12 +51,6 @@ public:
 
   /// Adds the indices of this rank's edges that other ranks found, and sorts all.
   void uniteEdges(const Edges& /*edges*/, std::vector<std::size_t>& /*found*/) const {}
-
-  /// See thin().
-  void thinOut(const Execution& execution, double minimumSpacing, Isosurface& surface) const
-  {
-    thin(execution, minimumSpacing, surface);
-  }
 
   /// Adds the leaves of all other ranks, as leaves of this rank's tree.
   void gatherLeaves(std::vector<std::size_t>& /*leaves*/) const {}

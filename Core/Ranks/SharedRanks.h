@@ -7,7 +7,6 @@
 #include "Core/Extraction/ExtractionContext.h"
 #include "Core/Extraction/Isosurface.h"
 #include "Core/Extraction/NeighborhoodFits.h"
-#include "Core/Extraction/Thinning.h"
 #include "Core/Fit/LocalFit.h"
 #include "Core/Ranks/ByteBuffer.h"
 #include "Core/Ranks/NodeExchange.h"
@@ -18,7 +17,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <mutex>
 #include <numeric>
 #include <stdexcept>
@@ -138,41 +136,6 @@ public:
     keepUnique(found);
   }
 
-  /// Thinning depends on the order of all isopoints: one rank gathers all fits and decides for all.
-  void thinOut(const Execution& execution, double minimumSpacing, Isosurface& surface)
-  {
-    std::vector<ByteBuffer> questions(this->rankCount());
-    for (std::size_t i = 0; i < surface.fits.size(); ++i)
-    {
-      append(questions.front(), surface.edges[i]);
-      appendFit(questions.front(), surface.fits[i]);
-    }
-    std::vector<std::vector<IsopointEdge>> asked(this->rankCount());
-    std::map<IsopointEdge, LocalFit> whole; // isopoints are on one rank or several
-    const std::vector<ByteBuffer> arrived = this->Processes.exchange(questions);
-    for (std::size_t rank = 0; rank < arrived.size(); ++rank)
-    {
-      ByteReader in(arrived[rank]);
-      while (!in.isAtEnd())
-      {
-        asked[rank].push_back(in.read<IsopointEdge>());
-        whole.emplace(asked[rank].back(), readFit(in));
-      }
-    }
-    const std::vector<IsopointEdge> keptEdges = thinned(execution, minimumSpacing, whole);
-    std::vector<std::vector<char>> answers(asked.size());
-    for (std::size_t rank = 0; rank < asked.size(); ++rank)
-    {
-      for (const IsopointEdge& edge : asked[rank])
-      {
-        answers[rank].push_back(
-          std::binary_search(keptEdges.begin(), keptEdges.end(), edge) ? 1 : 0);
-      }
-    }
-    surface = chosenIsopoints(
-      execution, surface, markedOf(execution, this->Processes.exchange(answers).front()));
-  }
-
   void gatherLeaves(std::vector<std::size_t>& leaves)
   {
     std::vector<SentEnd> own;
@@ -228,25 +191,6 @@ public:
   }
 
 private:
-  /// The edges of the isopoints that thin() keeps, ascending.
-  static std::vector<IsopointEdge> thinned(const Execution& execution, double minimumSpacing,
-    const std::map<IsopointEdge, LocalFit>& whole)
-  {
-    std::vector<IsopointEdge> edges;
-    std::vector<LocalFit> fits;
-    for (const auto& [edge, fit] : whole)
-    {
-      edges.push_back(edge);
-      fits.push_back(fit);
-    }
-    std::vector<IsopointEdge> kept;
-    for (const std::size_t i : keptPoints(execution, minimumSpacing, fits))
-    {
-      kept.push_back(edges[i]);
-    }
-    return kept;
-  }
-
   std::size_t rankCount() const { return static_cast<std::size_t>(this->Processes.size()); }
 
   template <class T>

@@ -42,7 +42,6 @@ inline Request randomRequest(clouds::Dice& dice)
     request.isosurface.fit =
       isopoint::FitRequest{ static_cast<FitOrder>(std::min<std::size_t>(order - 1, 4)),
         dice(3) > 0 };
-    request.minimumSpacing = dice(3) == 0 ? dice.real() : 0.0;
   }
   if (dice(4) > 0)
   {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Coverage by splats: after thinning, for samples on lines and at edges; how far splats extend over
+// Coverage by splats: for samples on lines and at edges; how far splats extend over
 // borders.
 #include "AnalyticFields.h"
 #include "SplatCoverage.h"
@@ -98,26 +98,6 @@ TEST(Coverage, SplatsAreReadFromTheArraysAndCoverTheirPolygons)
   EXPECT_TRUE(covers(0.0, 0.9, 0.99 * reach));
   EXPECT_FALSE(covers(0.0, 0.9, 1.01 * reach));
   EXPECT_FALSE(covers(0.0, 0.9, -1.01 * reach));
-}
-
-TEST(Coverage, ThinnedPointsCoverASphere)
-{
-  const analytic::Surface sphere = analytic::sphere();
-  constexpr vtkIdType samples = 50000;
-  const auto filter = newFilter(newCloud(samples), sphere.isovalue);
-  const vtkIdType all = outputOf(filter)->GetNumberOfPoints();
-  for (const int projection : { Isopoints::NO_PROJECTION, Isopoints::CUBIC_FIT })
-  {
-    filter->SetProjection(projection);
-    for (const double minimumSpacing : { 0.25, 0.5, 0.75 })
-    {
-      SCOPED_TRACE(testing::Message() << projection << ", " << minimumSpacing);
-      filter->SetMinimumSpacing(minimumSpacing);
-      EXPECT_LT(outputOf(filter)->GetNumberOfPoints(), 0.75 * all);
-      EXPECT_LE(countUncovered(filter->GetOutput(), 2.0 / std::cbrt(samples), sphere),
-        minimumSpacing > 0.5 ? 150 : 25); // of 50,000
-    }
-  }
 }
 
 TEST(Coverage, SamplesInLinesCoverASphere)

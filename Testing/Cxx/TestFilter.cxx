@@ -310,60 +310,6 @@ TEST(Filter, DropGapsDropsWhatIsInVoids)
   }
 }
 
-TEST(Filter, ThinnedPointsAreASubsetOfAll)
-{
-  const auto filter = newFilter(newCloud(20000));
-  filter->SetValue(1, 0.5);
-  filter->ComputeProjectionOrdersOn();
-  // The position and the arrays of each point, except those of splats.
-  const auto rowsOf = [](vtkPolyData* points)
-  {
-    std::vector<std::vector<double>> rows;
-    for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
-    {
-      const Vector place = placeOf(points, i);
-      std::vector<double>& row = rows.emplace_back(place.begin(), place.end());
-      for (const char* const name : { "distance", "x", "position", "ProjectionOrder" })
-      {
-        vtkDataArray* const array = findArray(points, name);
-        const double* const tuple = array->GetTuple(i);
-        row.insert(row.end(), tuple, tuple + array->GetNumberOfComponents());
-      }
-    }
-    return rows;
-  };
-  for (const int projection : { Isopoints::NO_PROJECTION, Isopoints::CUBIC_FIT })
-  {
-    filter->SetProjection(projection);
-    filter->SetMinimumSpacing(0.0);
-    const auto all = rowsOf(outputOf(filter));
-    const std::vector<double> everything = everythingOf(filter->GetOutput());
-    filter->SetMinimumSpacing(0.5);
-    const auto few = rowsOf(outputOf(filter));
-    EXPECT_GT(few.size(), all.size() * 3 / 10);
-    EXPECT_LT(few.size(), all.size() * 6 / 10);
-    EXPECT_EQ(filter->GetOutput()->GetNumberOfVerts(), static_cast<vtkIdType>(few.size()));
-    auto next = all.begin();
-    for (const std::vector<double>& row : few)
-    {
-      next = std::find(next, all.end(), row);
-      ASSERT_NE(next++, all.end());
-    }
-    const auto unprojected = std::count_if(
-      few.begin(), few.end(), [](const std::vector<double>& row) { return row.back() == 0.0; });
-    EXPECT_EQ(filter->GetNumberOfUnprojectedPoints(), unprojected);
-    filter->SetMinimumSpacing(0.0);
-    EXPECT_EQ(everythingOf(outputOf(filter)), everything);
-  }
-  const vtkIdType all = filter->GetOutput()->GetNumberOfPoints();
-  filter->ComputeNormalsOff();
-  filter->ComputeSplatsOff();
-  filter->SetProjection(Isopoints::NO_PROJECTION);
-  filter->SetMinimumSpacing(0.5);
-  EXPECT_LT(outputOf(filter)->GetNumberOfPoints(), 0.6 * all);
-  EXPECT_EQ(filter->GetNumberOfUnprojectedPoints(), filter->GetOutput()->GetNumberOfPoints());
-}
-
 TEST(Filter, SameBytesForAnyBackendAndNumberOfThreads)
 {
   const auto cloud = newCloud(150000);

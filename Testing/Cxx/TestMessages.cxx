@@ -329,8 +329,6 @@ TEST(Messages, EachInvalidUseIsOneError)
     { angle(-1.0), { "Angle", "-1", "0 to 180" } },
     { angle(180.5), { "Angle", "180.5", "0 to 180" } },
     { angle(notANumber), { "Angle", "nan", "0 to 180" } },
-    { [](Isopoints* filter) { filter->SetMinimumSpacing(notANumber); },
-      { "MinimumSpacing", "nan", "0 to 1" } },
     { [](Isopoints* filter) { filter->SetValue(1, notANumber); }, { "not a number", "Choose" } },
     { input(unloaded), { "load", "reader" } },
     { input(nothing), { "no points", "Connect" } },

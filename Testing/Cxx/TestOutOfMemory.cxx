@@ -110,17 +110,6 @@ TEST(OutOfMemory, ACloudOfPoints)
   failEach<Isopoints>(newCloud(4000), [](Isopoints*) {});
 }
 
-TEST(OutOfMemory, ThinnedPoints)
-{
-  failEach<Isopoints>(newCloud(4000),
-    [](Isopoints* filter)
-    {
-      filter->SetMinimumSpacing(0.5);
-      filter->ComputeNormalsOff();
-      filter->ComputeSplatsOff();
-    });
-}
-
 TEST(OutOfMemory, AnotherIsovalueOnAKeptTree)
 {
   failEach<Isopoints>(newCloud(4000),

@@ -46,12 +46,6 @@ Request withoutFieldNormals(Request request)
   return request;
 }
 
-Request thinned(Request request)
-{
-  request.minimumSpacing = 0.5;
-  return request;
-}
-
 void expectSameAsOneRank(const std::vector<Cloud>& clouds, const std::vector<std::size_t>& sizes,
   const std::vector<Deal>& deals, const std::vector<Request>& requests)
 {
@@ -122,7 +116,7 @@ TEST(Ranks, YieldTheFitsAndSplatsOfOneRank)
   const Request crease = requestOf(-0.2, FitOrder::Crease, true);
   const Request unmoved = withUnmovedFits(0.5);
   expectSameAsOneRank(ranks::variousClouds(), { 2, 7 }, { Deal::RoundRobin },
-    { cubic, crease, unmoved, withSplats(cubic), withSplats(thinned(crease)),
+    { cubic, crease, unmoved, withSplats(cubic), withSplats(crease),
       withoutFieldNormals(withSplats(unmoved)), withSplats(requestOf(0.3)) });
 }
 
@@ -208,9 +202,9 @@ TEST(Ranks, YieldTheRandomResultsOfOneRank)
 TEST(Ranks, KnowGhostsAsWellAsTheRanksThatHaveThem)
 {
   const Request cubic = requestOf(0.3, FitOrder::Cubic);
-  for (const Request& request : { requestOf(0.3), cubic, withSplats(cubic),
-         withSplats(thinned(requestOf(-0.2, FitOrder::Crease, true))),
-         withoutFieldNormals(withSplats(cubic)) })
+  for (const Request& request :
+    { requestOf(0.3), cubic, withSplats(cubic), withSplats(requestOf(-0.2, FitOrder::Crease, true)),
+      withoutFieldNormals(withSplats(cubic)) })
   {
     std::size_t count = 0;
     for (const Cloud& cloud : ranks::variousClouds())

@@ -11,12 +11,7 @@ namespace
 using ranks::Request;
 using Contents = std::pair<ranks::Description, ranks::Description>;
 
-const Request points = []()
-{
-  Request request = clouds::withSplats(clouds::requestOf(0.3, isopoint::FitOrder::Cubic, true));
-  request.minimumSpacing = 0.3;
-  return request;
-}();
+const Request points = clouds::withSplats(clouds::requestOf(0.3, isopoint::FitOrder::Cubic, true));
 
 const Request triangles = []()
 {

@@ -127,7 +127,7 @@ TEST(RanksFilter, DifferentOptionsAreOneError)
     { "both zeros",
       [](auto* points, auto*, int rank)
       {
-        points->SetMinimumSpacing(rank == 0 ? 0.0 : -0.0);
+        points->SetAngle(rank == 0 ? 0.0 : -0.0);
         return points;
       },
       0 },

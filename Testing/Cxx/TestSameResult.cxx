@@ -31,11 +31,9 @@ ExtractedIsosurface extracted(
 }
 
 /// Of fits and splats.
-ExtractionRequest whole(double isovalue, FitOrder order, double minimumSpacing = 0.0)
+ExtractionRequest whole(double isovalue, FitOrder order)
 {
-  ExtractionRequest request = clouds::withSplats(requestOf(isovalue, order));
-  request.minimumSpacing = minimumSpacing;
-  return request;
+  return clouds::withSplats(requestOf(isovalue, order));
 }
 
 ExtractionRequest triangles(double isovalue, bool regularizes = false)
@@ -75,9 +73,9 @@ TEST(SameResult, OfEverythingAfterOtherExtractions)
     IsosurfaceExtractor kept = loaded(cloud);
     std::size_t points = 0;
     for (const ExtractionRequest& request :
-      { whole(0.3, FitOrder::Cubic), whole(0.3, FitOrder::Crease, 0.5),
-        whole(-0.1, FitOrder::Quadratic), triangles(0.3), triangles(0.3, true),
-        requestOf(0.2, std::nullopt, false, 20.0), whole(0.3, FitOrder::Cubic) })
+      { whole(0.3, FitOrder::Cubic), whole(0.3, FitOrder::Crease), whole(-0.1, FitOrder::Quadratic),
+        triangles(0.3), triangles(0.3, true), requestOf(0.2, std::nullopt, false, 20.0),
+        whole(0.3, FitOrder::Cubic) })
     {
       const ExtractedIsosurface expected = extracted(cloud, request);
       expectSame(expected, extracted(cloud, request, 5));
@@ -221,7 +219,7 @@ TEST(SameResult, AfterAnAbortAtAnyTime)
 {
   const clouds::Cloud cloud = clouds::uniform(5000, 7);
   for (const ExtractionRequest& request :
-    { whole(0.5, FitOrder::Cubic, 0.5), triangles(0.5), triangles(0.5, true) })
+    { whole(0.5, FitOrder::Cubic), triangles(0.5), triangles(0.5, true) })
   {
     int asked = 0;
     Execution counting;

@@ -283,42 +283,6 @@ void checkPoints(
   }
 }
 
-/// The positions of each surface.
-std::vector<std::vector<Vector>> placesOf(vtkDataObject* output)
-{
-  std::vector<std::vector<Vector>> places;
-  for (vtkPolyData* const surface : surfacesOf(output))
-  {
-    places.emplace_back();
-    for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
-    {
-      places.back().push_back(placeOf(surface, i));
-    }
-  }
-  return places;
-}
-
-/// Updates the filter again, with thinning: thinned points are a subset of all, in the same order.
-void checkThinning(double minimumSpacing, vtkScatteredIsopointFilter* filter)
-{
-  const auto all = placesOf(filter->GetOutputDataObject(0));
-  filter->SetMinimumSpacing(minimumSpacing);
-  filter->Update();
-  filter->SetMinimumSpacing(0.0);
-  const auto thinned = placesOf(filter->GetOutputDataObject(0));
-  require(thinned.size() == all.size(), "the number of thinned surfaces");
-  for (std::size_t i = 0; i < all.size(); ++i)
-  {
-    auto next = all[i].begin();
-    for (const Vector& place : thinned[i])
-    {
-      next = std::find(next, all[i].end(), place);
-      require(next != all[i].end(), "a thinned point");
-      ++next;
-    }
-  }
-}
-
 /// Compares the filter's output with the isopoints that brute force finds in the input's data sets.
 void check(const std::vector<vtkSmartPointer<vtkDataSet>>& dataSets, vtkDataObject* input,
   int association, std::size_t errorCount, vtkScatteredIsopointFilter* filter)
@@ -384,11 +348,6 @@ void update(ByteSource& bytes, vtkScatteredIsopointFilter* filter, MessageWatche
   errors->All.clear();
   filter->Update();
   check(dataSets, input, association, errors->count(), filter);
-  const int percent = bytes.below(101);
-  if (errors->count() == 0)
-  {
-    checkThinning(0.01 * percent, filter);
-  }
 }
 
 } // namespace

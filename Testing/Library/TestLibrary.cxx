@@ -491,7 +491,7 @@ TEST(Library, InvalidOptionsAreErrors)
     expectInvalid(isopoint_extract(extractor.get(), &isovalue, 1, &options, &surface), word);
     EXPECT_EQ(surface, nullptr);
   };
-  expectInvalidOptions([](auto& o) { o.minimum_spacing = 2.0; }, "minimum_spacing is 2");
+  expectInvalidOptions([](auto& o) { o.angle = 200.0; }, "angle is 200");
   expectInvalidOptions([](auto& o) { o.number_of_neighbors = 2; }, "number_of_neighbors is 2");
   expectInvalidOptions([](auto& o) { o.angle = std::nan(""); }, "angle is nan");
   expectInvalidOptions([](auto& o) { o.projection = 5; }, "projection is 5");

@@ -39,8 +39,7 @@ def inputs_are_hidden():
 def rows_follow_others():
     """Rows of properties without effect are grayed out or hidden."""
     for name, own in zip(NAMES, (
-            [expect("NumberOfNeighbors", "enabled"), expect("MinimumSpacing", "enabled"),
-             set_property("Projection", "Linear fit"), expect("MinimumSpacing", "enabled", "false")],
+            [expect("NumberOfNeighbors", "enabled")],
             [expect("Regularize", "visible")])):
         play([choose(name), expect("DropGaps", "visible"), ADVANCED, expect("KeepTree", "visible"),
               expect("ContourBlocks", "visible", "false"), expect("NormalMethod", "enabled"), *own,

@@ -151,17 +151,17 @@ def gradients_are_at_the_samples():
     check(np.sqrt(np.mean(errors ** 2)) < 0.1, "the gradient of a sum of sines")
 
 
-# The samples around a ball.
-HOLLOW = """
+# Without a ball at the middle of a side.
+BITTEN = """
 active = simple.Clip(Input=samples, ClipType="Sphere", Invert=0)
-active.ClipType.Center, active.ClipType.Radius = 3 * [0.5], 0.35
+active.ClipType.Center, active.ClipType.Radius = [0.5, 0.5, 1], 0.4
 simple.Show(active, view)
 """
 
 
 def bodies_become_hulls():
     """Points of both are samples."""
-    shown, body, hull = use("ScatteredBody", [set_property("DropGaps", "false")], after=HOLLOW)
+    shown, body, hull = use("ScatteredBody", [set_property("DropGaps", "false")], after=BITTEN)
     check(shown["ScatteredBody1"] == [1, "Surface"], str(shown))
     check(100 < len(hull) < len(body), f"{len(body)} points of the body, {len(hull)} of its hull")
     check(np.allclose(body["value"], sum(np.sin(3 * body[f"Points:{i}"]) for i in range(3)), atol=1e-5), "values")

@@ -183,7 +183,7 @@ class ContourTest(unittest.TestCase):
             body(positions, capping=True)
 
     def test_bodies_have_no_webs(self):
-        """A tank of water with a trough between two crests, whose walls have nothing behind them."""
+        """A tank of water with a valley between two crests, whose walls have nothing behind them."""
         spacing = 0.02
         axes = [np.arange(0, end, spacing) for end in (2, 0.4, 1)]
         water = np.stack(np.meshgrid(*axes, indexing="ij"), -1).reshape(-1, 3)

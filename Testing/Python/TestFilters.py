@@ -506,7 +506,6 @@ class Filters(FilterTests):
                 (lambda f: f.SetAngle(-1.0), ("Angle", "-1", "0 to 180")),
                 (lambda f: f.SetAngle(180.5), ("Angle", "180.5", "0 to 180")),
                 (lambda f: f.SetAngle(np.nan), ("Angle", "nan", "0 to 180")),
-                (lambda f: f.SetMinimumSpacing(np.nan), ("MinimumSpacing", "nan", "0 to 1")),
                 (lambda f: f.SetValue(1, np.nan), ("not a number", "Choose")),
                 (lambda f: f.SetInputDataObject(unloaded), ("load", "reader")),
                 (lambda f: f.SetInputDataObject(vtkPolyData()), ("no points",)),

@@ -33,8 +33,6 @@ def samples(number):
 def options_of(number):
     options = {"projection": ["CUBIC_FIT", "NO_PROJECTION", "QUADRATIC_FIT", "CREASE_FIT"][number % 4],
                "compute_gradients": number % 3 == 1, "drop_gaps": number % 7 != 3}
-    if number % 2 == 0 and number % 3 == 2:
-        options["minimum_spacing"] = 0.5
     return options
 
 
@@ -44,7 +42,6 @@ def main(extract):
         for triangles in (False, True):
             options = options_of(number)
             if triangles:
-                options.pop("minimum_spacing", None)
                 options["regularize"] = number % 5 < 3
             isovalues = np.sort(values)[[len(values) // 3, len(values) // 2]] + 0.001
             surface = extract(positions, values, [float(value) for value in isovalues], triangles, options)

@@ -137,7 +137,6 @@ def configured(number, filter_class):
         "Projection": choose(random, 3, 3, 4, 4, 2, 1, 0),
         "NormalMethod": int(random.integers(2)),
         "DropGaps": choose(random, 0, 0, 1, 1),
-        "MinimumSpacing": choose(random, 0.0, 0.0, 0.5, 1.0),
         "NumberOfNeighbors": int(random.integers(3, 20)),
         "OutputPointsPrecision": int(random.integers(3)),
         "ContourBlocks": int(random.random() < 0.3),
