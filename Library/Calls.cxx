@@ -21,6 +21,10 @@
 #include <utility>
 #include <vector>
 
+#ifdef _WIN32
+#include <windows.h>
+#endif
+
 using isopoint::UsageError;
 
 namespace
@@ -196,6 +200,17 @@ void checkThreads(std::int32_t threads)
   }
 }
 
+/// Keeps the library on Windows when a program unloads it: oneTBB's threads may still run. Linux
+/// always keeps it, by CMakeLists.txt, and macOS, since it has thread_local variables.
+void stayLoaded()
+{
+#ifdef _WIN32
+  HMODULE library = nullptr;
+  GetModuleHandleExW(GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS | GET_MODULE_HANDLE_EX_FLAG_PIN,
+    reinterpret_cast<LPCWSTR>(&stayLoaded), &library);
+#endif
+}
+
 /// @param threads maximum number, or 0 for all cores
 isopoint::Execution executionOnThreads(std::int32_t threads)
 {
@@ -205,6 +220,7 @@ isopoint::Execution executionOnThreads(std::int32_t threads)
     threads > 0 ? std::min(static_cast<std::size_t>(threads), available) : available;
   if (chosen > 1)
   {
+    stayLoaded();
     isopoint::useThreads(execution, chosen);
   }
   return execution;

@@ -172,6 +172,8 @@ class Checker:
             return
         if first == "build":
             exists = "/" not in rest or rest.split("/")[0] in self.known["preset"]
+        elif first == "dist":
+            exists = True  # made by releasing.md
         elif not rest:
             exists = not word.endswith(SOURCES) or fnmatch.filter(self.sources, word)
         elif os.path.exists(os.path.join(self.root, first)) or word.endswith(SOURCES):

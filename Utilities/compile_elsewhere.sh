@@ -23,6 +23,10 @@ if [[ ${1-} == --help ]]; then
   exit
 fi
 (($# == 0)) || targets=("$@")
+if [[ " ${targets[*]}" == *' aarch64-linux-'* ]] && ! command -v qemu-aarch64 > /dev/null; then
+  echo "$0: install qemu-user and libc6-arm64-cross" >&2
+  exit 1
+fi
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source Utilities/zig.sh
 export folder=$PWD/build/elsewhere onetbb=

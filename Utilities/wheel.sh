@@ -10,9 +10,9 @@ usage()
   cat << END
 usage: $0 FOLDER [PLATFORM...]
 Makes a bare root of Debian 11 below FOLDER with debootstrap, unless it is there, and in it builds a wheel
-of what is committed for each platform, tries it as far as this machine can, and copies it to dist. Those
-for Linux, x86_64 and aarch64, need glibc 2.28 or later. Those for Windows and macOS are made from that for
-x86_64, which is built with them. All need NumPy; all else is linked statically.
+of what is committed for each platform, tries it as far as this machine can, and puts it into dist in place
+of the wheels there. Those for Linux, x86_64 and aarch64, need glibc 2.28 or later. That for x86_64 is
+always made: those for Windows and macOS are made from it. All need NumPy; all else is linked statically.
 Needs root, debootstrap, git and 6 GiB. Half an hour on two cores.
 Platforms, all by default: ${platforms[*]}
 END
@@ -29,17 +29,15 @@ fi
 folder=$(realpath "$1")
 shift
 (($# == 0)) || platforms=("$@")
-linux=()
+linux=(x86_64)
 others=()
 for platform in "${platforms[@]}"; do
   case $platform in
+    x86_64) ;;
     win_* | macosx_*) others+=("$platform") ;;
     *) linux+=("$platform") ;;
   esac
 done
-if ((${#others[@]} > 0)) && [[ " ${linux[*]} " != *' x86_64 '* ]]; then
-  linux=(x86_64 "${linux[@]}")
-fi
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source Utilities/roots.sh
 source Utilities/steps.sh
@@ -56,5 +54,6 @@ if ((${#others[@]} > 0)); then
 fi
 run_in_root "$root" "$commands"
 mkdir -p dist
+rm -f dist/*.whl
 cp "$root"/root/source/dist/*.whl dist/
 ls -l dist/*.whl

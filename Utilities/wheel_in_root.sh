@@ -182,10 +182,10 @@ name_wheel()
   mv "$folder/wheel-$1"/*.whl dist/
 }
 
-# Prints a digest of isosurfaces, with Debian 11's NumPy.
+# With Debian 11's NumPy. Emulation is slow: there, results are only compared with those of the first wheel.
 try_wheel()
 {
-  local tree=$folder/tree-$1 wheel run=(/usr/bin/python3)
+  local tree=$folder/tree-$1 wheel test found=$folder/extractions-$1
   rm -rf "$tree"
   for wheel in dist/*"$1".whl; do
     python3 -m zipfile -e "$wheel" "$tree"
@@ -197,25 +197,17 @@ try_wheel()
       {libpython3.9-minimal,libpython3.9-stdlib,libssl1.1,libstdc++6,python3-numpy}:"$name" \
       {python3.9-minimal,zlib1g}:"$name"
     local libraries=$foreign/usr/lib/$1-linux-gnu
-    run=("qemu-$1" -L "$foreign" -E "LD_LIBRARY_PATH=$libraries/blas:$libraries/lapack"
-      "$foreign/usr/bin/python3.9")
-    tree+=:$foreign/usr/lib/python3/dist-packages
+    PYTHONPATH=$tree:$foreign/usr/lib/python3/dist-packages "qemu-$1" -L "$foreign" \
+      -E "LD_LIBRARY_PATH=$libraries/blas:$libraries/lapack" \
+      "$foreign/usr/bin/python3.9" Testing/Python/extractions.py 4 > "$found"
+    head --lines "$(wc -l < "$found")" "$folder/extractions-${architectures[0]}" | cmp - "$found"
+    echo "the same $(wc -l < "$found") lines"
+  else
+    PYTHONPATH=$tree /usr/bin/python3 Testing/Python/extractions.py > "$found"
+    for test in Package Probe Slice Processes; do
+      PYTHONPATH=$tree /usr/bin/python3 "Testing/Python/Test$test.py"
+    done
   fi
-  PYTHONPATH=$tree "${run[@]}" - << END | tee "$folder/digest-$1"
-import hashlib
-import numpy as np
-import scatteredisopoints
-
-positions = np.random.default_rng(1).random((20000, 3))
-x, y, z = positions.T - 0.5
-digest = hashlib.sha256()
-for options in ({}, {"triangles": True}, {"triangles": True, "regularize": False},
-                {"projection": "CREASE_FIT"}):
-    surface = scatteredisopoints.contour(positions, x * x + y * y + z * z, 0.1, **options)
-    assert len(surface.points) > 100
-    digest.update(surface.points.tobytes())
-print(digest.hexdigest())
-END
 }
 
 step 'Installing packages' install_packages
@@ -227,8 +219,4 @@ for architecture in "${architectures[@]}"; do
   step "Building the wheel for $architecture" build_wheel "$architecture"
   step "Naming the wheel for $architecture" name_wheel "$architecture"
   step "Trying the wheel for $architecture" try_wheel "$architecture"
-  if ! cmp --silent "$folder"/digest-{"${architectures[0]}","$architecture"}; then
-    echo "$0: $architecture has other results than ${architectures[0]}" >&2
-    exit 1
-  fi
 done

@@ -3,18 +3,23 @@
 # other systems. Uses $folder, and oneTBB where $onetbb has its source; both are exported.
 
 # prepare_zig INCLUDE: finds Boost, CGAL and Eigen in a folder. Only headers, because those of this system's
-# C library do not fit other systems. CGAL includes the last one, which glibc has since 2.32, wherever it
-# exists: this one is found before zig's.
+# C library do not fit other systems. Sets libcxx, the folder of zig's C++ library.
 prepare_zig()
 {
-  if [[ ! -d $folder/zig ]]; then
-    python3 -m venv "$folder/zig.part"
-    "$folder/zig.part/bin/python" -m pip install --quiet ziglang
-    mv "$folder/zig.part" "$folder/zig"
-  fi
+  [[ -d $folder/zig ]] || python3 -m venv "$folder/zig"
+  # Other versions have other C++ libraries and linkers than those that were tried.
+  "$folder/zig/bin/python" -m pip install --quiet ziglang==0.17.1
   mkdir -p "$folder/headers" "$folder/shims/sys"
+  libcxx=$(echo "$folder"/zig/lib/python3.*/site-packages/ziglang/lib/libcxx)
   ln -sfn "$1"/{boost,CGAL} "$1/eigen3/Eigen" "$folder/headers"
+  # CGAL includes this header, which glibc has since 2.32, wherever it exists. This one is found before zig's.
   echo 'static const char __libc_single_threaded = 0;' > "$folder/shims/sys/single_threaded.h"
+  # What the C++ library declares but does not define is visible despite the compiler's option.
+  cat > "$folder/shims/hidden.h" << END
+#include <__config>
+#undef _LIBCPP_NAMESPACE_VISIBILITY
+#define _LIBCPP_NAMESPACE_VISIBILITY __attribute__((visibility("hidden")))
+END
 }
 
 zig()
@@ -45,14 +50,18 @@ object_of()
 compile()
 {
   local object options=(-O3 -g0 -std=c++17 -fPIC -fvisibility=hidden -fvisibility-inlines-hidden
-    -I"$folder/shims" -isystem "$folder/headers")
+    -ffile-prefix-map="$folder/"= -I"$folder/shims" -isystem "$folder/headers")
   object=$(object_of "$1" "$2")
+  # Otherwise macOS may replace weak symbols of the C++ library by those of its own one.
+  [[ $1 != *-macos* ]] || options+=(-D_LIBCPP_DISABLE_VISIBILITY_ANNOTATIONS -include "$folder/shims/hidden.h"
+    -fvisibility-global-new-delete=force-hidden)
   if [[ -n $onetbb ]]; then
     # The names that its header of exports defines: nothing of it is exported.
     options+=(-D__TBB_detail__export_H -DTBB_EXPORT= -DTBBMALLOC_EXPORT= -D__TBB_NO_IMPLICIT_LINKAGE=1
       -D__TBBMALLOC_NO_IMPLICIT_LINKAGE=1 -isystem "$onetbb/include")
   fi
   case $2 in
+    */libcxx/src/*) options+=(-std=c++23 -D_LIBCPP_BUILDING_LIBRARY -DLIBCXX_BUILDING_LIBCXXABI -I"${2%/*}" -w) ;;
     */src/tbb/*)
       options+=(-D__TBB_BUILD -D__TBB_USE_ITT_NOTIFY=0 -D__TBB_DYNAMIC_LOAD_ENABLED=0 -I"$onetbb/src" -w)
       case $1 in
@@ -73,7 +82,6 @@ compile()
       [[ -z $onetbb ]] || options+=(-DCGAL_LINKED_WITH_TBB)
       [[ $2 != Core/Tetrahedra/* ]] || options+=(-frounding-math -DBOOST_DISABLE_EXPLICIT_SYMBOL_VISIBILITY)
       [[ $2 != Library/* ]] || options+=(-DISOPOINT_BUILDS_LIBRARY)
-      [[ $2 != Utilities/* ]] || options+=(-fvisibility-global-new-delete=force-hidden)
       [[ $2 != Testing/* && $2 != */googletest/* ]] ||
         options+=(-ILibrary -I"$folder/googletest" -isystem "$folder/googletest/include")
       ;;

@@ -21,7 +21,7 @@ def printed(*command):
 if path.endswith(".dll"):
     exported = set(re.findall(r"^ +Name: (\w+)$", printed("llvm-readobj", "--coff-exports"), re.MULTILINE))
 elif path.endswith(".dylib"):
-    exported = set(re.findall(r" _(\w+)$", printed("llvm-nm", "--extern-only", "--defined-only"), re.MULTILINE))
+    exported = set(re.findall(r"^0x\S+ +_(\w+)", printed("llvm-objdump", "--macho", "--exports-trie"), re.MULTILINE))
     exported -= {"__dso_handle", "_mh_dylib_header"}  # the linker's
 else:
     exported = {line.split()[-1].split("@")[0] for line in printed("nm", "--dynamic", "--defined-only").splitlines()}

@@ -22,6 +22,7 @@ import scatteredisopoints
 from scatteredisopoints import _library, contour
 
 PROCESSES = 5
+FREE = "FreeLibrary" if os.name == "nt" else "dlclose"
 CONTOUR = """
 import numpy as np
 from scatteredisopoints import _library, contour
@@ -49,23 +50,28 @@ class Processes(unittest.TestCase):
                 self.assertEqual(printed(CONTOUR + "print(count)"), expected)
 
     def test_the_library_is_unloaded_and_loaded(self):
-        free = "_ctypes.FreeLibrary" if os.name == "nt" else "_ctypes.dlclose"
-        for threads in ("None", "1"):
-            with self.subTest(threads):
-                # What uses the library lives on, so the process ends at once.
-                self.assertEqual(printed("import _ctypes, ctypes, gc, os, time" + CONTOUR.replace(
-                    "triangles=True", f"triangles=True, threads={threads}") + f"""
+        # What uses the library lives on, so the process ends at once.
+        self.assertEqual(printed("import _ctypes, ctypes, gc, os" + CONTOUR.replace(
+            "triangles=True", "triangles=True, threads=1") + f"""
 gc.collect()
 handle = _library._library._handle
 for _ in range(3):
-    {free}(handle)
-    time.sleep(0.1)
+    _ctypes.{FREE}(handle)
     library = ctypes.CDLL(_library.LIBRARY)
     handle = library._handle
     library.isopoint_version.restype = ctypes.c_char_p
     print(library.isopoint_version().decode(), flush=True)
 os._exit(0)
 """), 3 * [_library.version().decode()])
+
+    def test_the_library_stays_with_its_threads(self):
+        find = "ctypes.windll.kernel32.GetModuleHandleW(_library.LIBRARY)" if os.name == "nt" else (
+            "ctypes.CDLL(_library.LIBRARY, os.RTLD_NOLOAD)")
+        self.assertEqual(printed("import _ctypes, ctypes, os" + CONTOUR + f"""
+_ctypes.{FREE}(_library._library._handle)
+assert {find}
+print(count == len(contour(positions, positions.sum(axis=1), 1.5, triangles=True)))
+"""), ["True"])
 
     def test_folders_with_any_letters(self):
         package = pathlib.Path(scatteredisopoints.__file__).parent

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Prints hashes of 24 extractions: extractions.py [--filters], which goes through the compiled filters
-rather than the C library. The lines are the same wherever results are."""
+"""Prints hashes of extractions from 24 clouds, or the first ones: extractions.py [--filters] [CLOUDS]
+
+The option goes through the compiled filters rather than the C library. The lines are the same wherever
+results are.
+"""
 
 import hashlib
 import sys
@@ -36,8 +39,8 @@ def options_of(number):
     return options
 
 
-def main(extract):
-    for number in range(24):
+def main(extract, clouds):
+    for number in range(clouds):
         positions, values = samples(number)
         for triangles in (False, True):
             options = options_of(number)
@@ -55,10 +58,11 @@ def main(extract):
 
 if __name__ == "__main__":
     warnings.simplefilter("ignore")
-    if sys.argv[1:] == ["--filters"]:
+    count = int(sys.argv[-1]) if sys.argv[-1].isdigit() else 24
+    if "--filters" in sys.argv:
         filtered = contouring.compiled_filters().filtered
         main(lambda positions, values, isovalues, triangles, options: filtered(
-            positions, values, isovalues, triangles, None, None, options))
+            positions, values, isovalues, triangles, None, None, options), count)
     else:
         main(lambda positions, values, isovalues, triangles, options: contour(
-            positions, values, isovalues, triangles=triangles, **options))
+            positions, values, isovalues, triangles=triangles, **options), count)
