@@ -16,8 +16,6 @@ import time
 import common
 import numpy as np
 from scatteredisopoints import contour
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 RADIUS = 60.0
@@ -64,13 +62,12 @@ def turned(corners, gradients):
     return np.count_nonzero((common.normals_of(corners) * directions).sum(axis=1) <= 0)
 
 
-def topology(triangles, vertices):
+def topology(surface):
     """Euler number, components, edges of one triangle, and edges of more than two."""
-    edges = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    edges = np.sort(np.asarray(surface.triangles)[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
     unique, counts = np.unique(edges, axis=0, return_counts=True)
-    components, _ = connected_components(coo_matrix((np.ones(len(unique)), unique.T), shape=(vertices, vertices)))
-    euler = vertices - len(unique) + len(triangles)
-    return euler, components, np.count_nonzero(counts == 1), np.count_nonzero(counts > 2)
+    euler = len(surface.points) - len(unique) + len(surface.triangles)
+    return euler, len(surface.pieces), np.count_nonzero(counts == 1), np.count_nonzero(counts > 2)
 
 
 def print_row(name, positions, values, isovalue, spacing, isopoints, regularize):
@@ -87,7 +84,7 @@ def print_row(name, positions, values, isovalue, spacing, isopoints, regularize)
     common.print_row(
         name, f"{isopoints:,}", "on" if regularize else "off", f"{len(surface.points):,}",
         f"{np.percentile(angles, 5):.1f} / {np.median(angles):.1f}", f"{100 * (angles < 10).mean():.2f}",
-        turned(corners, np.asarray(surface.arrays["Gradients"])[triangles]), *topology(triangles, len(surface.points)),
+        turned(corners, np.asarray(surface.arrays["Gradients"])[triangles]), *topology(surface),
         distances, f"{seconds:.2f}")
 
 

@@ -25,14 +25,15 @@ set(SCATTEREDISOPOINTS_PYTHON_BUILD_PATH "${CMAKE_BINARY_DIR}/${SCATTEREDISOPOIN
 set(built_package "${CMAKE_BINARY_DIR}/${package}")
 file(GLOB python_sources RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}/Python/scatteredisopoints" CONFIGURE_DEPENDS
   Python/scatteredisopoints/*.py)
+# Beside the plugin in Python, ParaView would load these as plugins of their own.
 foreach (name IN LISTS FILTER_NAMES)
-  configure_file("${FILTER_PROPERTIES_DIR}/${name}.xml" "${built_package}/paraview/${name}.xml" COPYONLY)
+  configure_file("${FILTER_PROPERTIES_DIR}/${name}.xml" "${built_package}/properties/${name}.xml" COPYONLY)
 endforeach ()
-configure_file(Plugin/IsopointSplatPolygons.xml "${built_package}/paraview/IsopointSplatPolygons.xml" COPYONLY)
-configure_file(Python/scatteredisopoints/paraview/scattered_isopoints.py
-  "${built_package}/paraview/scattered_isopoints.py" COPYONLY)
-install(DIRECTORY "${built_package}/paraview" DESTINATION "${package}" COMPONENT package
-  FILES_MATCHING PATTERN "*.xml" PATTERN "*.py" PATTERN "__pycache__" EXCLUDE)
+configure_file(Plugin/IsopointSplatPolygons.xml "${built_package}/properties/IsopointSplatPolygons.xml" COPYONLY)
+install(DIRECTORY "${built_package}/properties" DESTINATION "${package}" COMPONENT package)
+set(python_plugin paraview/scattered_isopoints.py)
+configure_file("Python/scatteredisopoints/${python_plugin}" "${built_package}/${python_plugin}" COPYONLY)
+install(FILES "${built_package}/${python_plugin}" DESTINATION "${package}/paraview" COMPONENT package)
 foreach (file IN LISTS python_sources ITEMS py.typed)
   configure_file("Python/scatteredisopoints/${file}" "${built_package}/${file}" COPYONLY)
   install(FILES "${built_package}/${file}" DESTINATION "${package}" COMPONENT package)

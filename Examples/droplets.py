@@ -7,6 +7,8 @@ import numpy as np
 from paraview.simple import *
 from vtkmodules.vtkFiltersCore import vtkMassProperties
 
+COLORS = "Inferno" if GetParaViewVersion() >= 6 else "Inferno (matplotlib)"
+
 # Stands for your files: particles of a jet that breaks into droplets, at seven times.
 random = np.random.default_rng(6)
 lattice = np.stack(np.meshgrid(np.arange(-3, 3, 0.045), *2 * [np.arange(-0.6, 0.6, 0.045)], indexing="ij"), -1)
@@ -44,9 +46,9 @@ for step in (0, 3, 6):
     AssignViewToLayout(view, layout, place)
     place = layout.SplitVertical(place, 0.22) + 1
     UpdatePipeline(step, pieces)
-    shown = Show(GenerateSurfaceNormals(Input=pieces), view)
+    shown = Show(pieces, view)
     ColorBy(shown, ("POINTS", "RegionId"))
-    GetColorTransferFunction("RegionId").ApplyPreset("Inferno (matplotlib)", True)
+    GetColorTransferFunction("RegionId").ApplyPreset(COLORS, True)
     GetColorTransferFunction("RegionId").RescaleTransferFunction(-1, 4)
     shown.SetScalarBarVisibility(view, False)
     Render(view)

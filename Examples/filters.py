@@ -6,6 +6,8 @@ Needs the compiled plugin, loaded by PV_PLUGIN_PATH or the Debian package."""
 import numpy as np
 from paraview.simple import *
 
+COLORS = "Inferno" if GetParaViewVersion() >= 6 else "Inferno (matplotlib)"
+
 # Stands for your file: the temperature at 60,000 uneven places in a ball.
 lattice = np.stack(np.meshgrid(*3 * [np.linspace(-1, 1, 49)], indexing="ij"), -1).reshape(-1, 3)
 places = lattice + np.random.default_rng(4).normal(0, 0.008, lattice.shape)
@@ -40,7 +42,7 @@ for name, shown in pictures.items():
         display.AmbientColor = display.DiffuseColor = [0.8, 0.4, 0.2]
     else:
         ColorBy(display, ("POINTS", "temperature"))
-        GetColorTransferFunction("temperature").ApplyPreset("Inferno (matplotlib)", True)
+        GetColorTransferFunction("temperature").ApplyPreset(COLORS, True)
     view.CameraPosition, view.CameraViewUp = [1, -4, 2], [0, 0, 1]
     ResetCamera(view)
     GetActiveCamera().Zoom(2 if shown is arrows else 1.4)

@@ -6,6 +6,8 @@ Needs the compiled plugin, loaded by PV_PLUGIN_PATH or the Debian package."""
 import numpy as np
 from paraview.simple import *
 
+COLORS = "Inferno" if GetParaViewVersion() >= 6 else "Inferno (matplotlib)"
+
 # Stands for your file: heat that spreads from two points in a ball of 60,000 uneven sensors.
 lattice = np.stack(np.meshgrid(*3 * [np.linspace(-1, 1, 49)], indexing="ij"), -1).reshape(-1, 3)
 places = lattice + np.random.default_rng(3).normal(0, 0.008, lattice.shape)
@@ -34,7 +36,7 @@ piece = ScatteredSlice(Input=samples)
 piece.SliceType.Origin, piece.SliceType.Normal = [0, 0, 0], [0, 1, 0.3]
 display = Show(piece, view)
 ColorBy(display, ("POINTS", "temperature"))
-GetColorTransferFunction("temperature").ApplyPreset("Inferno (matplotlib)", True)
+GetColorTransferFunction("temperature").ApplyPreset(COLORS, True)
 ResetCamera(view)
 view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [0, -6, 1], [0, 0, 0], [0, 0, 1]
 ResetCamera(view)

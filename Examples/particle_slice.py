@@ -6,6 +6,8 @@ Needs the compiled plugin, loaded by PV_PLUGIN_PATH or the Debian package."""
 import numpy as np
 from paraview.simple import *
 
+COLORS = "Viridis" if GetParaViewVersion() >= 6 else "Viridis (matplotlib)"
+
 # Stands for your file: 85,000 particles of water with waves, around a ball, and their speed.
 random = np.random.default_rng(5)
 spacing = 0.025
@@ -72,7 +74,7 @@ for cell, (name, piece) in zip(cells, pieces.items()):
     title.FontSize, title.WindowLocation = 14, "Lower Center"
     views.append(view)
 colors = GetColorTransferFunction("speed")
-colors.ApplyPreset("Viridis (matplotlib)", True)
+colors.ApplyPreset(COLORS, True)
 colors.RescaleTransferFunction(0, 2)
 
 layout.SetSize(960, 480)

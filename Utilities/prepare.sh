@@ -37,7 +37,7 @@ package_lists=(Utilities/debian-packages.txt)
 if [[ $preset == vtk* ]]; then
   package_lists+=(Utilities/debian-packages-vtk.txt)
 elif [[ $preset != library && $preset != wheel ]]; then
-  release=$(. /etc/os-release && echo "${VERSION_ID-}")
+  release=$(. /etc/os-release && echo "${VERSION_ID-sid}")
   package_lists+=("Utilities/debian-packages-paraview-$release.txt")
 fi
 if [[ -f Utilities/debian-packages-$preset.txt && $preset != vtk ]]; then
@@ -45,7 +45,7 @@ if [[ -f Utilities/debian-packages-$preset.txt && $preset != vtk ]]; then
 fi
 for list in "${package_lists[@]}"; do
   if [[ ! -f $list ]]; then
-    echo "$0: there is no $list: with ParaView Debian 12 and 13 are known." >&2
+    echo "$0: there is no $list: with ParaView Debian 12, 13 and sid are known." >&2
     echo "Build with VTK alone (the preset vtk), or install what the other lists name." >&2
     exit 1
   fi
@@ -94,8 +94,8 @@ if ((${#missing[@]} > 0)); then
   step "Installing ${#missing[@]} packages and what they depend on" install_packages "${missing[@]}"
 fi
 
-# Debian 13's paraview-dev expects other names of Python modules than python3-paraview has.
-if [[ ${release-} == 13 ]] && ((EUID == 0)); then
+# Since Debian 13 paraview-dev expects other names of Python modules than Debian's packages have.
+if [[ ${release-12} != 12 ]] && ((EUID == 0)); then
   for module in /usr/lib/python3/dist-packages/{vtkmodules,paraview/modules,paraview/incubator}/*.cpython-*.so; do
     link=${module%%.cpython-*}.so
     [[ -e $link ]] || ln --symbolic "${module##*/}" "$link"

@@ -14,11 +14,11 @@ make_root()
   echo 'Acquire::Check-Valid-Until "false";' > "$2/etc/apt/apt.conf.d/check-valid-until"
 }
 
-# run_in_root ROOT COMMAND: runs it with /proc and /dev, which are unmounted at the end.
+# run_in_root ROOT COMMAND: runs it with /proc, /sys and /dev, which are unmounted at the end.
 run_in_root()
 {
   unshare --mount bash -c '
-    mount -t proc proc "$0/proc" && mount --rbind /dev "$0/dev" &&
+    mount -t proc proc "$0/proc" && mount --rbind /sys "$0/sys" && mount --rbind /dev "$0/dev" &&
       exec chroot "$0" env -i HOME=/root LANG=C.UTF-8 PATH=/usr/sbin:/usr/bin:/sbin:/bin \
         bash -c "$1"' "$1" "$2"
 }

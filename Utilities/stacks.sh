@@ -3,7 +3,7 @@
 # Builds and tests the project in bare roots of several Debian releases; see the usage below.
 set -euo pipefail
 
-stacks=(bookworm-paraview bookworm-vtk bookworm-library trixie-paraview sid-vtk)
+stacks=(bookworm-paraview bookworm-vtk bookworm-library trixie-paraview sid-paraview sid-vtk)
 
 usage()
 {
@@ -11,7 +11,7 @@ usage()
 usage: $0 FOLDER [STACK...]
 Makes a bare root for each stack below FOLDER with debootstrap, unless it is there, and in it
 installs, builds and tests what is committed, compiler warnings being errors. Prints the versions and
-CTest's summary of each. Needs root, debootstrap, git, and 5 GiB for each stack. Stacks, all by
+CTest's summary of each. Needs root, debootstrap, git, and up to 7 GiB for each stack. Stacks, all by
 default: ${stacks[*]}
 END
 }

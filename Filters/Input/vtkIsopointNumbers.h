@@ -7,8 +7,10 @@
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
+#include "vtkImageData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
+#include "vtkStructuredData.h"
 #include "vtkType.h"
 
 #include <algorithm>
@@ -24,12 +26,15 @@ const T* vtkGetPackedValues(vtkDataArray* array)
   return packed ? packed->GetPointer(0) : nullptr;
 }
 
-/// Reads the positions of a data set's points from any thread.
+/// Reads the positions of a data set's points from any thread. Those of an image are where its
+/// matrix puts the indices: in VTK 9.6 vtkImageData::GetPoint() takes the spacing of oriented
+/// images from the difference of two coordinates, and loses bits that way.
 class vtkIsopointPositions
 {
 public:
   explicit vtkIsopointPositions(vtkDataSet* input)
     : Input(input)
+    , Image(vtkImageData::SafeDownCast(input))
   {
     auto* const pointSet = vtkPointSet::SafeDownCast(input);
     vtkPoints* const points = pointSet ? pointSet->GetPoints() : nullptr;
@@ -47,7 +52,14 @@ public:
     {
       std::copy_n(this->Doubles + 3 * point, 3, position);
     }
-    else // implicit positions, structures of arrays, integers
+    else if (this->Image)
+    {
+      int index[3];
+      vtkStructuredData::ComputePointStructuredCoordsForExtent(
+        static_cast<vtkIdType>(point), this->Image->GetExtent(), index);
+      this->Image->TransformIndexToPhysicalPoint(index, position);
+    }
+    else // coordinates along axes, structures of arrays, integers
     {
       this->Input->GetPoint(static_cast<vtkIdType>(point), position);
     }
@@ -55,6 +67,7 @@ public:
 
 private:
   vtkDataSet* Input;
+  vtkImageData* Image;
   const float* Floats;
   const double* Doubles;
 };

@@ -154,7 +154,8 @@ void pqIsopointFilters::hideSplatsBehind(pqPipelineFilter* filter)
 namespace
 {
 
-/// Whether points have an array whose components are all 0.
+/// Whether points have an array whose components are all 0. Since ParaView 6 hidden points do not
+/// count: the range of an array is empty if all are hidden.
 bool isZero(vtkPVDataInformation* data, const std::string& name)
 {
   vtkPVArrayInformation* const array =
@@ -164,7 +165,7 @@ bool isZero(vtkPVDataInformation* data, const std::string& name)
   {
     double range[2];
     array->GetComponentFiniteRange(i, range);
-    isZero = range[0] == 0.0 && range[1] == 0.0;
+    isZero = range[0] >= 0.0 && range[1] <= 0.0;
   }
   return isZero;
 }

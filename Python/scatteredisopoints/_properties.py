@@ -39,7 +39,7 @@ class Property:
 
 def proxy_of(name: str) -> ElementTree.Element:
     """The XML of a filter by its proxy's name, such as ScatteredIsopoints."""
-    root = ElementTree.parse(Path(__file__).parent / "paraview" / f"{name}.xml").getroot()
+    root = ElementTree.parse(Path(__file__).parent / "properties" / f"{name}.xml").getroot()
     return root[0][0]  # ServerManagerConfiguration, ProxyGroup
 
 

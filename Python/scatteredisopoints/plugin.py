@@ -13,9 +13,9 @@ _PROXIES = ("ScatteredIsopoints", "ScatteredIsosurface", "IsopointSplatPolygons"
 
 def loaded_plugins() -> set[str]:
     """The names of the plugins that ParaView has loaded."""
-    from paraview import servermanager
+    from paraview.modules.vtkRemotingCore import vtkPVPluginTracker  # servermanager would make a session of its own
 
-    tracker = servermanager.vtkPVPluginTracker.GetInstance()
+    tracker = vtkPVPluginTracker.GetInstance()
     return {tracker.GetPluginName(i) for i in range(tracker.GetNumberOfPlugins())
             if tracker.GetPluginLoaded(i)}
 

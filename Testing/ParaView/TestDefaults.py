@@ -166,11 +166,13 @@ def properties_may_outlive_proxies():
         isopoints, shown = create(Input=without), simple.Show(create(Input=source))
         array, *others = map(isopoints.SMProxy.GetProperty, ("SelectInputScalars", "ContourValues", "Input"))
         splats = shown.SMProxy.GetProperty("SplatsForIsopoints")
-        others += [splats, splats.GetParent().GetProperty("Input")]
+        others += [splats]
+        if simple.GetParaViewVersion() < 6:  # ParaView 6.1 crashes, also with its own representations
+            others.append(splats.GetParent().GetProperty("Input"))
         for each in (isopoints, shown):
             simple.Delete(each)
         del isopoints, shown, each
-        check([each.GetParent() for each in [array, *others]] == 5 * [None], "the proxies are deleted")
+        check(not any(each.GetParent() for each in [array, *others]), "the proxies are deleted")
         array.SetElement(4, "other")  # the isovalue waits for an array
         del splats
         while others:

@@ -4,7 +4,8 @@
 import os
 import sys
 
-from playing import ADVANCED, APPLY, FOLDER, check, choose, expect, play, python_alone, set_property
+from playing import (
+    ADVANCED, APPLY, FOLDER, SCRIPT, check, choose, expect, play, play_script, python_alone, set_property)
 
 library, package, paraview = sys.argv[1:]
 site, plugin = python_alone(library, package)
@@ -26,3 +27,10 @@ shown, said = play(paraview, plugin, [APPLY], (
     "isopoints = simple.FindSource('ScatteredIsopoints1')\n"
     "print('loaded:', list(isopoints.Isosurfaces), flush=True)"))
 check("loaded: [150.0]" in said and shown.get("ScatteredIsopoints1") == [1, "Surface"], f"the state is loaded: {shown}")
+
+# Loaded before there is a window.
+shown, said = play_script([paraview, "--dr"], SCRIPT.format(
+    load="print('sessions:', len(simple.servermanager.Connections), flush=True)",
+    more="simple.SetActiveSource(wavelet)"),
+    [choose("Scattered Isosurface"), APPLY], PV_PLUGIN_PATH=os.path.dirname(plugin))
+check("sessions: 1" in said and shown.get("ScatteredIsosurface1") == [1, "Surface"], f"one session: {shown}")

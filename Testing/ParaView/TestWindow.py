@@ -22,8 +22,8 @@ def play(events, more="", **options):
     return playing.play(PARAVIEW, PLUGIN, events, more, **options)
 
 
-# Since 5.13 labels are other widgets.
-IS_5_13 = playing.version_of(PARAVIEW) >= (5, 13)
+# Since 5.13 labels are other widgets; since 6 help has another frame.
+IS_5_13, IS_6 = (playing.version_of(PARAVIEW) >= version for version in ((5, 13), (6,)))
 
 
 def inputs_are_hidden():
@@ -75,8 +75,8 @@ def others_of(said):
 def expect_help(label, xml, name):
     """That a label has the text that a property has in the XML."""
     text = ElementTree.parse(xml).find(f".//*[@name='{name}']/Documentation").text
-    return expect_of(label, "toolTip", '<html><head/><body><p align="justify">'
-                     f"{' '.join(text.split())}</p></body></html>")
+    before, after = ("<table width='500'><tr><td>", "</td></tr></table>") if IS_6 else ('<p align="justify">', "</p>")
+    return expect_of(label, "toolTip", f"<html><head/><body>{before}{' '.join(text.split())}{after}</body></html>")
 
 
 def help_is_at_labels():
@@ -208,7 +208,8 @@ def selected_points_keep_their_shapes():
 TRACES = """
 from paraview import smtrace
 smtrace.start_trace(preamble="")
-samples = simple.Elevation(Input=simple.PointSource(NumberOfPoints=3000, Radius=1.0))
+points = simple.PointSource(NumberOfPoints=3000, Radius=1.0)
+samples = simple.Elevation(Input=points, LowPoint=[0, 0, -1], HighPoint=[0, 0, 1])
 simple.Show(samples, view)
 simple.SetActiveSource(samples)
 view.GetRenderWindow().AddObserver(

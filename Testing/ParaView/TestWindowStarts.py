@@ -12,9 +12,10 @@ from pathlib import Path
 from playing import APPLY, FOLDER, SCRIPT, WINDOW, check, choose, event, play_script, run, search, version_of
 
 PARAVIEW, *PLUGINS = sys.argv[1:]
-SETTINGS = Path(".config/ParaView") / "ParaView{}.{}.{}.ini".format(*version_of(PARAVIEW))
+VERSION = version_of(PARAVIEW)
+SETTINGS = Path(".config/ParaView") / ("ParaView.ini" if VERSION >= (6,) else "ParaView{}.{}.{}.ini".format(*VERSION))
 MANAGER = WINDOW + "PluginManagerDialog/"
-FILES = MANAGER + ("1pqFileDialog0" if version_of(PARAVIEW) >= (5, 13) else "pqFileDialog")
+FILES = MANAGER + ("1pqFileDialog0" if VERSION >= (5, 13) else "pqFileDialog")
 
 
 def new_home():

@@ -91,6 +91,7 @@ class ScatteredBody(_vtk.vtkScatteredBodyFilter):
 
 if "ScatteredIsopoints" in loaded_plugins():
     print("ScatteredIsopoints, the compiled plugin, is loaded already: the one in Python adds nothing.")
+    ScatteredIsopoints._pvsm_proxy_xml = "<ServerManagerConfiguration />"  # ParaView 6 wants a class with XML
 else:
     for _class in (ScatteredIsopoints, ScatteredIsosurface, IsopointSplatPolygons, ScatteredProbe, ScatteredLine,
                    ScatteredGrid, ScatteredGradient, ScatteredSlice, ScatteredBody):
