@@ -750,7 +750,7 @@ class Imports(unittest.TestCase):
         for name in set(scatteredisopoints._MODULES) - set(scatteredisopoints.__all__):
             is_in_python = not has_vtk and name in (
                 "vtkIsopointSplatPolygons", *(f"vtkScattered{kind}Filter" for kind in (
-                    "Gradient", "Grid", "Isopoint", "Isosurface", "Line", "Probe", "Slice")))
+                    "Body", "Gradient", "Grid", "Isopoint", "Isosurface", "Line", "Probe", "Slice")))
             text = f"{name} needs " + ("VTK: pip install vtk$" if is_in_python else "classes that are compiled")
             with self.assertRaisesRegex(ImportError, text):
                 exec(f"from scatteredisopoints import {name}")
