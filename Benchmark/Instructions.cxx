@@ -247,7 +247,7 @@ std::uint64_t twoRanks()
     [&](isopoint::Communicator& communicator)
     {
       isopoint::ProcessGroup processes(communicator);
-      processes.together(
+      processes.runCollectively(
         [&]()
         {
           const auto rank = static_cast<std::size_t>(processes.rank());

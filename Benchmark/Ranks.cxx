@@ -86,7 +86,7 @@ int main(int argc, char** argv)
     [&](isopoint::Communicator& communicator)
     {
       isopoint::ProcessGroup processes(communicator);
-      processes.together([&]() { extract(processes, samples, request); });
+      processes.runCollectively([&]() { extract(processes, samples, request); });
     });
   return 0;
 }

@@ -88,7 +88,7 @@ public:
 
   /// Loads this rank's items of a cloud that is distributed over a process group, perhaps of one
   /// rank. Ids number the items of all ranks, in rank order. Collective; so are extract() and
-  /// replaceValues() afterwards. See ProcessGroup::together().
+  /// replaceValues() afterwards. See ProcessGroup::runCollectively().
   /// @param processes must outlive this extractor, or the next load() or clear()
   /// @param count of this rank's items, read as above by local ids from 0 on
   template <class TCoordinate, class TValue, class Reader>

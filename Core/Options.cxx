@@ -33,8 +33,8 @@ bool hasNormalsFromField(const Options& options)
   }
 }
 
-/// The fit that the projection or an output requires, if any: field normals require
-/// polynomials; other splats and fit orders at least the sample spacing.
+/// The fit that the projection or an output needs, if any. Normals from the field and gradients
+/// need a polynomial. Splats and fit orders need only the sample spacing.
 std::optional<FitRequest> fitRequestOf(const Options& options)
 {
   if (options.projection != 0)

@@ -161,15 +161,19 @@ public:
 
   ///@{
   /**
-   * Whether the surface ends where the spacing of the samples jumps, as at voids or at the free
-   * surface of a fluid. An isopoint is dropped if its edge is longer than twice the spacing of the
-   * samples behind both ends, and if a chain of such edges, each with a common end with the next,
-   * leads to one longer than four times the spacing behind both its ends. The spacing behind the
-   * end x of an edge {x, y} is the distance from x to the second nearest sample position (the third
-   * nearest for the factor of four) within 54.7356 degrees (whose cosine is 1 / sqrt(3)) of the
-   * direction from y to x; it is infinite if there are fewer. Edges between a dense and a sparse
-   * region, to an isolated sample, and between lines or slices of samples remain, and closed
-   * surfaces amid samples stay closed. For triangles see vtkScatteredIsosurfaceFilter. Default: on.
+   * Whether the surface ends at gaps between samples, as at voids or at the free surface of a
+   * fluid.
+   * - The spacing behind the end x of an edge {x, y} is the distance from x to the second nearest
+   *   sample position in a cone: within 54.7356 degrees (whose cosine is 1 / sqrt(3)) of the
+   *   direction from y to x. It is infinite if there are fewer than two.
+   * - An edge is weak if it is longer than twice the spacing behind both ends. It is strong if it
+   * is longer than four times that spacing, with the third nearest position instead of the second.
+   * - The isopoints of strong edges are dropped, and those of weak edges that a chain of weak edges
+   *   connects with a strong one. Consecutive edges of a chain share an end.
+   *
+   * Edges between a dense and a sparse region, to an isolated sample, and between lines or slices
+   * of samples stay. Closed surfaces amid samples stay closed. For triangles see
+   * vtkScatteredIsosurfaceFilter. Default: on.
    */
   virtual void SetDropGaps(vtkTypeBool drop);
   virtual vtkTypeBool GetDropGaps();

@@ -419,7 +419,7 @@ typedef enum isopoint_array_id
   ISOPOINT_SPLAT_AXES = 9, /* three float: t1, tangential and as long as r */
   /* 40 float: a, b, h, u, v of each corner. The corner is at p + a t1 + b t2 + h r n and has the
    * normal n + (u t1 + v t2) / r, not of length 1. Counterclockwise seen from the tip of n. Unused
-   * corners repeat the last one. All are 0 at a point represented by another one close by. */
+   * corners repeat the last one. All are 0 if the splat of a close point takes the place of this one. */
   ISOPOINT_SPLAT_POLYGONS = 10,
   /* After isopoint_make_splat_mesh(): */
   ISOPOINT_SPLAT_VERTICES = 11,       /* three float or double, as points */

@@ -102,11 +102,10 @@ inline std::size_t rankAt(const std::vector<std::uint64_t>& begins, std::uint64_
     std::upper_bound(begins.begin(), begins.end(), number) - begins.begin() - 1);
 }
 
-/// A process group. Work runs inside together(); all functions but rank(), size() and traffic() are
-/// collective and are called from there.
-/// A rank may throw anywhere. Every collective function first reduces a status by maximum. If a
-/// rank has failed, all others throw here, before they send any data. The cost is negligible in a
-/// group of one rank.
+/// A process group. Work runs inside runCollectively(); all functions but rank(), size() and
+/// traffic() are collective and are called from there. A rank may throw anywhere. Every collective
+/// function first reduces a status by maximum. If a rank has failed, all others throw here, before
+/// they send any data. The cost is negligible in a group of one rank.
 class ProcessGroup
 {
 public:
@@ -122,27 +121,27 @@ public:
   /// Runs work that may call collective functions. It throws on all ranks or on none.
   /// @throws whatever `work` throws; if only another rank's work threw, Aborted or FailedElsewhere
   template <class Work>
-  void together(const Work& work)
+  void runCollectively(const Work& work)
   {
     this->IsOver = false;
     try
     {
       work();
-      this->agree();
+      this->reduceStatus();
     }
     catch (const Aborted&)
     {
-      this->tell(aborted);
+      this->reportFailure(aborted);
       throw;
     }
     catch (...)
     {
-      this->tell(failed);
+      this->reportFailure(failed);
       throw;
     }
   }
 
-  bool isAny(bool mine) { return this->agree(mine ? 1 : 0) != 0; }
+  bool isAny(bool mine) { return this->reduceStatus(mine ? 1 : 0) != 0; }
 
   void maximum(std::vector<std::uint64_t>& numbers) { this->reduce(numbers, Reduction::Maximum); }
   void sum(std::vector<std::uint64_t>& numbers) { this->reduce(numbers, Reduction::Sum); }
@@ -174,7 +173,7 @@ public:
       from[i] = { &ownSizes[i], sizeof(std::uint64_t) };
       to[i] = { &sizes[i], sizeof(std::uint64_t) };
     }
-    this->agree();
+    this->reduceStatus();
     this->Transport.exchange(from, to);
     std::vector<std::vector<T>> received(count);
     for (std::size_t i = 0; i < count; ++i)
@@ -209,7 +208,7 @@ public:
   void exchange(
     const std::vector<OutgoingBytes>& outgoing, const std::vector<IncomingBytes>& incoming)
   {
-    this->agree();
+    this->reduceStatus();
     for (std::size_t i = 0; i < outgoing.size(); ++i)
     {
       if (i != this->index())
@@ -230,7 +229,7 @@ private:
   std::size_t count() const { return static_cast<std::size_t>(this->size()); }
 
   /// Makes the next collective function of the other ranks throw, unless they know of the failure.
-  void tell(std::uint64_t failure)
+  void reportFailure(std::uint64_t failure)
   {
     if (!this->IsOver)
     {
@@ -241,7 +240,7 @@ private:
 
   /// The maximum over all ranks; throws if a rank has failed.
   /// @param number below `aborted`
-  std::uint64_t agree(std::uint64_t number = 0)
+  std::uint64_t reduceStatus(std::uint64_t number = 0)
   {
     this->Transport.allReduce(&number, 1, Reduction::Maximum);
     this->IsOver = number >= aborted;
@@ -258,14 +257,14 @@ private:
 
   std::uint64_t reduced(std::uint64_t number, Reduction reduction)
   {
-    this->agree();
+    this->reduceStatus();
     this->Transport.allReduce(&number, 1, reduction);
     return number;
   }
 
   void reduce(std::vector<std::uint64_t>& numbers, Reduction reduction)
   {
-    this->agree();
+    this->reduceStatus();
     this->Transport.allReduce(numbers.data(), numbers.size(), reduction);
   }
 

@@ -293,9 +293,9 @@ private:
     do
     {
       this->Marks.grow(this->Tree.nodes.size());
-      this->Aside.clear();
+      this->Deferred.clear();
       this->markBelowFront(execution, front, depth);
-      front = this->Aside;
+      front = this->Deferred;
       missing.swap(this->Missing);
       this->Missing.clear();
     } while (ranks.fetchNodes(missing, depth));
@@ -339,9 +339,9 @@ private:
     }
     catch (const MissingNode& missing)
     {
-      const std::lock_guard<std::mutex> lock(this->AsideMutex);
+      const std::lock_guard<std::mutex> lock(this->DeferredMutex);
       this->Missing.push_back(missing);
-      this->Aside.push_back({ path.index, path.nodeIndex(), true });
+      this->Deferred.push_back({ path.index, path.nodeIndex(), true });
     }
   }
 
@@ -443,8 +443,8 @@ private:
   const Execution& Exec;
   NeighborListBudget ListBudget;
   NodeMarks Marks; // of nodes down to the current depth
-  std::mutex AsideMutex;
-  std::vector<BandNode> Aside;      // nodes that wait for missing ones
+  std::mutex DeferredMutex;
+  std::vector<BandNode> Deferred;   // nodes that wait for missing ones
   std::vector<MissingNode> Missing; // to fetch
 };
 

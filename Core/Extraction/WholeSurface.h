@@ -16,8 +16,8 @@
 namespace isopoint
 {
 
-/// The points whose splats are computed (template parameter TChosen): all of them. SurfaceHalo
-/// implements the same functions for several ranks.
+/// The points that this rank owns and computes splats of (template parameter TOwnedPoints): all.
+/// SurfaceHalo implements the same functions for several ranks.
 class AllPoints
 {
 public:

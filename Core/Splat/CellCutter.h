@@ -71,8 +71,8 @@ public:
   }
 
 private:
-  /// How far an open cell may extend, in spacings. A closed cell may extend twice as far, or four
-  /// times as far at a point with a smooth fit, as between samples in lines.
+  /// The greatest reach of an open cell, in spacings. That of a closed cell is twice as large, and
+  /// four times at a point with a smooth fit: samples in lines have long cells.
   static constexpr double openReach = 1.1;
 
   /// How far a cell that was cut at a border may extend, in spacings.

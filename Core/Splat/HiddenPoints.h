@@ -40,7 +40,8 @@ public:
     bool isFirst = true;
     for (const std::size_t other : this->Finder.find(point, 1))
     {
-      if (other != point && states[other] != SplatState::Hidden && this->areOne(point, other))
+      if (other != point && states[other] != SplatState::Hidden &&
+          this->areDuplicates(point, other))
       {
         if (states[other] == SplatState::Visible)
         {
@@ -53,7 +54,7 @@ public:
   }
 
 private:
-  bool areOne(std::size_t point, std::size_t other) const
+  bool areDuplicates(std::size_t point, std::size_t other) const
   {
     constexpr double closeness = 0.05; // in units of length
     constexpr double minCosine = 0.7;

@@ -14,11 +14,11 @@
 namespace isopoint
 {
 
-/// A point, and another point whose cell is cut halfway to it.
+/// Two points. The cell of the second ends halfway to the first.
 using MissedPoint = std::pair<std::size_t, std::size_t>;
 
-/// Pairs in which the first point's cell extends over the cut halfway to the other, because its
-/// neighborhood lacks the other. Ascending. O(points)
+/// Pairs whose cells overlap: the cell of the first does not end halfway to the second, because the
+/// second was not among its neighbors. Ascending. O(points)
 /// @param planes the normals of the cells' planes
 /// @throws std::bad_alloc, Aborted
 std::vector<MissedPoint> missedPoints(const Execution& execution, const SurfacePoints& points,

@@ -23,18 +23,18 @@ namespace isopoint
 {
 
 /// See computeSplats().
-template <class TNeighbors, class TExtents, class TChosen>
+template <class TNeighbors, class TExtents, class TOwnedPoints>
 class SplatMaker
 {
 public:
   SplatMaker(const Execution& execution, const SurfacePoints& points, const TNeighbors& neighbors,
-    const TExtents* extents, const SplatOptions& options, TChosen& chosen)
+    const TExtents* extents, const SplatOptions& options, TOwnedPoints& owned)
     : Exec(execution)
     , Points(points)
     , Neighbors(neighbors)
     , Extents(extents)
     , Options(options)
-    , Chosen(chosen)
+    , Owned(owned)
     , Splats(points.positions.size())
   {
   }
@@ -47,7 +47,7 @@ public:
       this->findHidden();
       this->cutCells();
       shapeSplats(partOf(this->Exec, cellsEnd, 1.0), this->Points, std::move(this->Cells),
-        this->CellNormals, this->Chosen.shaped(), this->Splats);
+        this->CellNormals, this->Owned.shaped(), this->Splats);
     }
     return std::move(this->Splats);
   }
@@ -65,7 +65,7 @@ private:
   {
     constexpr std::size_t batch = 2048;
     constexpr std::size_t grain = 128;
-    this->Chosen.forEach(
+    this->Owned.forEach(
       execution, { own.size(), batch, grain }, makeWorker,
       [&](auto& worker, std::size_t i) { work(worker, own[i]); },
       [&](double share) { execution.progress(share); });
@@ -77,7 +77,7 @@ private:
     std::vector<std::size_t> unfitted =
       setFieldNormals(this->Exec, this->Points, this->Options.fieldNormals,
         [this](std::size_t point, const Vector& normal) { this->CellNormals[point] = normal; });
-    this->Chosen.keepOwn(unfitted);
+    this->Owned.keepOwn(unfitted);
     this->forPoints(
       partOf(this->Exec, 0.0, this->Options.shapes ? normalsEnd : 1.0), unfitted,
       [this]() {
@@ -85,17 +85,18 @@ private:
       },
       [this](PlaneNormals<TNeighbors>& normals, std::size_t point)
       { this->CellNormals[point] = normals.at(point); });
-    this->Chosen.share(this->CellNormals);
+    this->Owned.share(this->CellNormals);
     forEachIndex(this->Exec, this->Splats.size(),
       [this](std::size_t point) { this->Splats[point].normal = this->CellNormals[point]; });
   }
 
   void findHidden()
   {
-    // Points become visible in every second round. The few undecided points left are drawn too.
+    // A point gets visible in one round, and hides its duplicates in the next. The few that are
+    // undecided in the end are drawn.
     constexpr int rounds = 6;
     this->States.assign(this->Splats.size(), SplatState::Undecided);
-    std::vector<std::size_t> undecided = this->Chosen.own();
+    std::vector<std::size_t> undecided = this->Owned.own();
     for (int round = 0; round < rounds; ++round)
     {
       const std::vector<SplatState> states = this->States;
@@ -105,7 +106,7 @@ private:
         { return HiddenPoints<TNeighbors>(this->Neighbors, this->Points, this->CellNormals); },
         [&](HiddenPoints<TNeighbors>& hidden, std::size_t point)
         { this->States[point] = hidden.next(point, states); });
-      this->Chosen.share(this->States);
+      this->Owned.share(this->States);
       std::vector<std::size_t> left = itemsThat(this->Exec, undecided.size(),
         [&](std::size_t i) { return this->States[undecided[i]] == SplatState::Undecided; });
       undecided = chosenOf(this->Exec, undecided, left);
@@ -115,13 +116,13 @@ private:
   void cutCells()
   {
     this->Cells.resize(this->Splats.size());
-    this->cut(partOf(this->Exec, normalsEnd, cutEnd), this->Chosen.own());
+    this->cut(partOf(this->Exec, normalsEnd, cutEnd), this->Owned.own());
     this->Missed = missedPoints(this->Exec, this->Points, this->CellNormals, this->Cells);
     std::vector<std::size_t> missing(this->Missed.size());
     forEachIndex(
       this->Exec, missing.size(), [&](std::size_t i) { missing[i] = this->Missed[i].first; });
     missing = sortedUnique(this->Exec, missing, this->Splats.size());
-    this->Chosen.keepOwn(missing);
+    this->Owned.keepOwn(missing);
     this->cut(partOf(this->Exec, cutEnd, cutEnd), missing);
     const std::vector<std::size_t> changed = this->correctPlanes();
     this->cut(partOf(this->Exec, cutEnd, cellsEnd), changed);
@@ -139,7 +140,7 @@ private:
       },
       [this](CellCutter<TNeighbors, TExtents>& cutter, std::size_t point)
       { this->Cells[point] = cutter.cut(point, this->missedBy(point)); });
-    this->Chosen.shareCells(this->Cells);
+    this->Owned.shareCells(this->Cells);
   }
 
   std::vector<std::size_t> missedBy(std::size_t point) const
@@ -159,7 +160,7 @@ private:
   /// @returns this rank's points whose cells must be cut again: those and their neighbors
   std::vector<std::size_t> correctPlanes()
   {
-    const std::vector<std::size_t>& own = this->Chosen.own();
+    const std::vector<std::size_t>& own = this->Owned.own();
     std::vector<char> areChanged(this->Splats.size(), 0);
     forEachIndex(this->Exec, own.size(),
       [&](std::size_t i)
@@ -177,9 +178,9 @@ private:
           areChanged[point] = 1;
         }
       });
-    this->Chosen.share(this->States);
-    this->Chosen.share(this->CellNormals);
-    this->Chosen.share(areChanged);
+    this->Owned.share(this->States);
+    this->Owned.share(this->CellNormals);
+    this->Owned.share(areChanged);
     const std::vector<std::size_t> changed = itemsThat(this->Exec, own.size(),
       [&](std::size_t i)
       {
@@ -221,7 +222,7 @@ private:
   const TNeighbors& Neighbors;
   const TExtents* Extents;
   const SplatOptions& Options;
-  TChosen& Chosen;
+  TOwnedPoints& Owned;
   std::vector<Splat> Splats;
   // One entry per point; share() and shareCells() fetch those of other ranks.
   std::vector<Vector> CellNormals; // normals of the planes in which cells are cut
@@ -234,16 +235,16 @@ private:
 /// @tparam TNeighbors IsopointNeighbors, or another class with a Finder
 /// @param points consecutive ones should be close
 /// @param extents of the samples, or null for no border; see cutAtBorder()
-/// @param chosen see WholeSurface
+/// @param owned see WholeSurface
 /// @throws std::bad_alloc, Aborted
 /// Complexity: O(n), plus a few queries of extents
-template <class TNeighbors, class TExtents, class TChosen>
+template <class TNeighbors, class TExtents, class TOwnedPoints>
 std::vector<Splat> computeSplats(const Execution& execution, const SurfacePoints& points,
   const TNeighbors& neighbors, const TExtents* extents, const SplatOptions& options,
-  TChosen& chosen)
+  TOwnedPoints& owned)
 {
-  return SplatMaker<TNeighbors, TExtents, TChosen>(
-    execution, points, neighbors, extents, options, chosen)
+  return SplatMaker<TNeighbors, TExtents, TOwnedPoints>(
+    execution, points, neighbors, extents, options, owned)
     .make();
 }
 

@@ -16,7 +16,7 @@ namespace isopoint
 namespace
 {
 
-bool areOne(const SplatVertex& a, const SplatVertex& b)
+bool coincide(const SplatVertex& a, const SplatVertex& b)
 {
   constexpr float turn = 1e-3f;
   const double tolerance = std::min(a.tolerance, b.tolerance);
@@ -162,7 +162,7 @@ std::vector<std::size_t> meetingVertices(
     const auto last = entries.begin() + static_cast<std::ptrdiff_t>(end);
     const auto other = std::find_if(entries.begin() + static_cast<std::ptrdiff_t>(begin), last,
       [&](const Entry& earlier)
-      { return areOne(vertices[earlier.second], vertices[entry.second]); });
+      { return coincide(vertices[earlier.second], vertices[entry.second]); });
     if (other != last)
     {
       const auto [first, second] = std::minmax({ firstOf(other->second), firstOf(entry.second) });

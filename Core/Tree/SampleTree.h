@@ -189,9 +189,9 @@ std::size_t smallestAround(
   }
 }
 
-/// Searches the samples of interest in a region depth-first.
-/// @param region a part of the node's that contains all of them
-/// @param search mayHold(node, region): whether any of them may be in a part of the region;
+/// Searches a node depth-first for the samples that a search wants.
+/// @param region contains all wanted samples; a part of the node's
+/// @param search mayHold(node, region): whether a wanted sample may be in a part of the region;
 /// isUpperFirst(node): which child to search first; needed(region): see requireSamples();
 /// add(nodeIndex): takes the samples of an unsplit node, and returns true to end the search
 /// @returns whether add() ended the search

@@ -42,7 +42,7 @@ private:
 
 /// Samples that may be in the wrong half after a separation.
 template <class TSample>
-struct OpenSamples
+struct AmbiguousSamples
 {
   SampleList<TSample> lower; // in the lower half
   SampleList<TSample> upper;
@@ -53,7 +53,7 @@ struct OpenSamples
     this->upper.resize(0);
   }
 
-  void add(const OpenSamples& other)
+  void add(const AmbiguousSamples& other)
   {
     const auto append = [](SampleList<TSample>& list, const SampleList<TSample>& more)
     {
@@ -206,7 +206,8 @@ public:
 
   /// Swaps misplaced samples until one half has none left.
   /// @param open receives samples inside the bracket
-  void exchange(HalfScan<TSample>& low, HalfScan<TSample>& high, OpenSamples<TSample>& open) const
+  void exchange(
+    HalfScan<TSample>& low, HalfScan<TSample>& high, AmbiguousSamples<TSample>& open) const
   {
     while (this->listLow(low, open) && this->listHigh(high, open))
     {
@@ -216,7 +217,8 @@ public:
 
   /// Scans the rest of both halves.
   /// @param open receives samples inside the bracket and misplaced ones
-  void finish(HalfScan<TSample>& low, HalfScan<TSample>& high, OpenSamples<TSample>& open) const
+  void finish(
+    HalfScan<TSample>& low, HalfScan<TSample>& high, AmbiguousSamples<TSample>& open) const
   {
     while (this->listLow(low, open))
     {
@@ -228,13 +230,13 @@ public:
     }
   }
 
-  bool listLow(HalfScan<TSample>& low, OpenSamples<TSample>& open) const
+  bool listLow(HalfScan<TSample>& low, AmbiguousSamples<TSample>& open) const
   {
     return low.list([this](const TSample& s) { return s.position[this->Axis] < this->Lower; },
       [this](const TSample& s) { return s.position[this->Axis] > this->Upper; }, open.lower);
   }
 
-  bool listHigh(HalfScan<TSample>& high, OpenSamples<TSample>& open) const
+  bool listHigh(HalfScan<TSample>& high, AmbiguousSamples<TSample>& open) const
   {
     return high.list([this](const TSample& s) { return s.position[this->Axis] > this->Upper; },
       [this](const TSample& s) { return s.position[this->Axis] < this->Lower; }, open.upper);
@@ -262,7 +264,7 @@ private:
 /// half are below the bracket, those of the upper half above it.
 template <class TSample>
 void separate(TSample* samples, std::size_t count, int axis, const MiddleBracket<TSample>& bracket,
-  OpenSamples<TSample>& open)
+  AmbiguousSamples<TSample>& open)
 {
   TSample* const middle = samples + count / 2;
   HalfScan<TSample> low(samples, middle);
@@ -277,13 +279,13 @@ void separate(TSample* samples, std::size_t count, int axis, const MiddleBracket
 /// exchanges the imbalance of the parts, which is small unless the cloud has a special order.
 template <class TSample>
 void separateTogether(const Execution& execution, TSample* samples, std::size_t count, int axis,
-  const MiddleBracket<TSample>& bracket, OpenSamples<TSample>& open)
+  const MiddleBracket<TSample>& bracket, AmbiguousSamples<TSample>& open)
 {
   struct Part
   {
     HalfScan<TSample> low;
     HalfScan<TSample> high;
-    OpenSamples<TSample> open{};
+    AmbiguousSamples<TSample> open{};
   };
   const std::size_t lowerCount = count / 2;
   const std::size_t upperCount = count - lowerCount;

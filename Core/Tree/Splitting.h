@@ -113,7 +113,7 @@ struct HalvingScratch
 {
   std::vector<typename TSample::Coordinate> subset;
   std::vector<typename TSample::Coordinate> coordinates;
-  OpenSamples<TSample> open;
+  AmbiguousSamples<TSample> open;
 };
 
 /// Moves samples to their halves, given the middle coordinates.
@@ -166,7 +166,7 @@ std::optional<Halves> halveWithoutBracket(
 
 /// Swaps open samples that are in the wrong half.
 template <class TSample, class Predicate>
-void exchangeOpen(OpenSamples<TSample>& open, const Predicate& belongsLower)
+void exchangeAmbiguous(AmbiguousSamples<TSample>& open, const Predicate& belongsLower)
 {
   const auto keepMisplaced = [](SampleList<TSample>& list, const auto& isMisplaced)
   {
@@ -195,7 +195,7 @@ bool halveSeparated(TSample* samples, std::size_t count, int axis,
   const MiddleBracket<TSample>& bracket, HalvingScratch<TSample>& scratch,
   std::optional<Halves>& halves)
 {
-  OpenSamples<TSample>& open = scratch.open;
+  AmbiguousSamples<TSample>& open = scratch.open;
   const std::size_t rank = open.lower.size();
   const std::size_t openCount = rank + open.upper.size();
   if (rank == 0 || rank == openCount)
@@ -218,7 +218,7 @@ bool halveSeparated(TSample* samples, std::size_t count, int axis,
     std::for_each(open.upper.begin(), open.upper.end(), [&](const TSample* s) { visit(*s); });
   };
   halves = halveAtMiddle(samples, count, axis, middle, forEachOpen, rank,
-    [&open](const auto& belongsLower) { exchangeOpen(open, belongsLower); });
+    [&open](const auto& belongsLower) { exchangeAmbiguous(open, belongsLower); });
   return true;
 }
 

@@ -23,10 +23,10 @@ class EdgeFlipper
 {
 public:
   EdgeFlipper(const Execution& execution, const std::vector<Vector>& positions,
-    const std::vector<char>& areKept, std::vector<SurfaceTriangle> triangles)
+    const std::vector<char>& areFixed, std::vector<SurfaceTriangle> triangles)
     : Exec(execution)
     , Positions(positions)
-    , AreKept(areKept)
+    , AreFixed(areFixed)
     , Mesh(execution, std::move(triangles), positions.size())
     , Normals(areaNormals(execution, positions, this->Mesh.triangles(), this->Mesh.outgoing()))
     , States(3 * this->Mesh.triangles().size(), State::Suspect)
@@ -134,7 +134,7 @@ private:
     const std::size_t c = this->Mesh.oppositeOf(side);
     const std::size_t d = this->Mesh.oppositeOf(this->Mesh.twinOf(side));
     const bool isOfKept =
-      this->AreKept[a] && this->AreKept[b] && (this->AreKept[c] || this->AreKept[d]);
+      this->AreFixed[a] && this->AreFixed[b] && (this->AreFixed[c] || this->AreFixed[d]);
     return c != d && !isOfKept && this->isObtuse(a, b, c, d) && !this->isCrease(a, b, c, d) &&
            this->staysUpright(a, b, c, d);
   }
@@ -218,7 +218,7 @@ private:
 
   const Execution& Exec;
   const std::vector<Vector>& Positions;
-  const std::vector<char>& AreKept; // each vertex
+  const std::vector<char>& AreFixed; // each vertex
   SurfaceMesh Mesh;
   std::vector<Vector> Normals; // of vertices, before any flip
   std::vector<State> States;   // of sides
@@ -227,10 +227,10 @@ private:
 } // namespace
 
 void flipEdges(const Execution& execution, const std::vector<Vector>& positions,
-  const std::vector<char>& areKept, std::vector<SurfaceTriangle>& triangles)
+  const std::vector<char>& areFixed, std::vector<SurfaceTriangle>& triangles)
 {
   triangles = ordered(execution,
-    EdgeFlipper(execution, positions, areKept, std::move(triangles)).flip(), positions.size());
+    EdgeFlipper(execution, positions, areFixed, std::move(triangles)).flip(), positions.size());
 }
 
 } // namespace isopoint

@@ -56,17 +56,17 @@ struct MarchedTriangles : EdgeTriangles<TSample>
 /// See mergeVertices(). Vertices at samples stay. @throws std::bad_alloc, Aborted
 template <class TSample>
 EdgeTriangles<TSample> withMergedVertices(const Execution& execution,
-  MarchedTriangles<TSample> marched, std::vector<char> areKept, bool keepsRim)
+  MarchedTriangles<TSample> marched, std::vector<char> areFixed, bool keepsRim)
 {
   const bool isBody = !marched.caps.empty();
   if (isBody)
   {
-    areKept.resize(marched.edges.size());
-    forEachIndex(execution, areKept.size(),
-      [&](std::size_t vertex) { areKept[vertex] = marched.edges[vertex].isSample() ? 1 : 0; });
+    areFixed.resize(marched.edges.size());
+    forEachIndex(execution, areFixed.size(),
+      [&](std::size_t vertex) { areFixed[vertex] = marched.edges[vertex].isSample() ? 1 : 0; });
   }
   MergeableTriangles exact{ marched.positions, std::move(marched.triangles),
-    std::move(marched.caps), std::move(marched.nearerEnds), marched.endCount, std::move(areKept),
+    std::move(marched.caps), std::move(marched.nearerEnds), marched.endCount, std::move(areFixed),
     keepsRim };
   MergedTriangles merged;
   if (isBody)

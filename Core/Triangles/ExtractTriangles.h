@@ -174,19 +174,19 @@ private:
     MarchedTriangles<TSample> marched, FitsAtEdges& kept)
   {
     constexpr double fitsEnd = 0.8; // share of the progress
-    std::vector<char> areKept;
+    std::vector<char> areFixed;
     if (this->hasCreases())
     {
       std::vector<LocalFit> fits =
         this->fitTo(partOf(execution, 0.0, fitsEnd), context, marched, {});
-      areKept = areAtCreases(execution, fits, marched.triangles);
-      const std::vector<std::size_t> vertices = markedOf(execution, areKept);
+      areFixed = areAtCreases(execution, fits, marched.triangles);
+      const std::vector<std::size_t> vertices = markedOf(execution, areFixed);
       forEachInOrder(execution, vertices.size(),
         [&](std::size_t i)
         { kept.emplace(marched.edges[vertices[i]], std::move(fits[vertices[i]])); });
     }
     return withMergedVertices(partOf(execution, fitsEnd, 1.0), std::move(marched),
-      std::move(areKept), this->Request.keepsHullSlivers);
+      std::move(areFixed), this->Request.keepsHullSlivers);
   }
 
   /// The vertices of caps at samples stay there, without fits.
@@ -339,10 +339,10 @@ private:
   void flipEdgesOf(EdgeTriangles<TSample>& mesh, const std::vector<Vector>& positions,
     const std::vector<LocalFit>& fits) const
   {
-    const std::vector<char> areKept = this->hasCreases()
-                                        ? areAtCreases(this->Exec, fits, mesh.triangles)
-                                        : areVerticesOf(this->Exec, mesh.caps, positions.size());
-    flipEdges(this->Exec, positions, areKept, mesh.triangles);
+    const std::vector<char> areFixed = this->hasCreases()
+                                         ? areAtCreases(this->Exec, fits, mesh.triangles)
+                                         : areVerticesOf(this->Exec, mesh.caps, positions.size());
+    flipEdges(this->Exec, positions, areFixed, mesh.triangles);
   }
 
   const Execution& Exec;

@@ -163,10 +163,10 @@ public:
     , HasCaps(!triangles.caps.empty())
     , NearerEnds(std::move(triangles.nearerEnds))
     , EndCount(triangles.endCount)
-    , AreKept(std::move(triangles.areKept))
+    , AreFixed(std::move(triangles.areFixed))
   {
     const std::size_t count = this->Crossings.size();
-    this->AreKept.resize(count, 0);
+    this->AreFixed.resize(count, 0);
     this->Result.triangles = std::move(triangles.triangles);
     this->Result.caps = std::move(triangles.caps);
     this->Result.members.resize(count);
@@ -182,7 +182,8 @@ public:
     for (int round = 0; round < shortEdgeRounds; ++round)
     {
       flipEdges(this->Exec, this->Result.positions,
-        this->HasCaps ? areVerticesOf(this->Exec, this->Result.caps, this->count()) : this->AreKept,
+        this->HasCaps ? areVerticesOf(this->Exec, this->Result.caps, this->count())
+                      : this->AreFixed,
         this->Result.triangles);
       const SurfaceMesh mesh = this->takeMesh();
       this->contract(mesh, this->pairsOfShortEdges(mesh), this->Result.positions);
@@ -213,10 +214,10 @@ private:
         if (fan == SurfaceMesh::Fan::Branched || fan == SurfaceMesh::Fan::BackToBack ||
             (this->KeepsRim && mesh.isOpen(vertex)))
         {
-          this->AreKept[vertex] = 1;
+          this->AreFixed[vertex] = 1;
         }
       });
-    const std::vector<std::size_t> kept = markedOf(this->Exec, this->AreKept);
+    const std::vector<std::size_t> kept = markedOf(this->Exec, this->AreFixed);
     std::vector<std::size_t> groups = std::move(this->NearerEnds);
     forEachIndex(this->Exec, kept.size(),
       [&](std::size_t i) { groups[kept[i]] = this->EndCount + i; }); // alone
@@ -264,7 +265,7 @@ private:
       });
     this->Result.triangles = this->renumberedTriangles(mesh.triangles(), number, roots.size());
     this->Result.caps = this->renumberedTriangles(this->Result.caps, number, roots.size());
-    this->AreKept = chosenOf(this->Exec, this->AreKept, roots);
+    this->AreFixed = chosenOf(this->Exec, this->AreFixed, roots);
     std::vector<Vector> positions(roots.size());
     forEachIndex(this->Exec, roots.size(),
       [&](std::size_t i)
@@ -410,7 +411,7 @@ private:
         if (!isTaken[a] && !isTaken[b])
         {
           isTaken[a] = isTaken[b] = true;
-          seconds[a] = this->AreKept[a] || this->AreKept[b] ? 0 : b;
+          seconds[a] = this->AreFixed[a] || this->AreFixed[b] ? 0 : b;
         }
       });
     const std::vector<std::size_t> firsts = markedOf(this->Exec, seconds);
@@ -447,8 +448,8 @@ private:
   const bool HasCaps;
   std::vector<std::size_t> NearerEnds; // until they are merged
   const std::size_t EndCount;
-  std::vector<char> AreKept; // each of these
-  MergedTriangles Result;    // of these vertices
+  std::vector<char> AreFixed; // each of these
+  MergedTriangles Result;     // of these vertices
 };
 
 } // namespace

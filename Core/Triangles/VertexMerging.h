@@ -19,7 +19,7 @@ struct MergeableTriangles
   std::vector<SurfaceTriangle> caps;   // those of caps, if the surface is closed by them; ordered
   std::vector<std::size_t> nearerEnds; // the number of the nearer sample on each vertex' edge
   std::size_t endCount = 0;            // exceeds all of these numbers
-  std::vector<char> areKept = {};      // vertices that stay; empty for none
+  std::vector<char> areFixed = {};     // vertices that stay; empty for none
   bool keepsRim = false;               // whether vertices of edges with one triangle stay, too
 };
 

@@ -54,7 +54,7 @@ bool vtkIsopointUpdate::Run(
   isopoint::Failure failure;
   try
   {
-    this->Processes.together(
+    this->Processes.runCollectively(
       [&]()
       {
         this->Execution = vtkMakeIsopointExecution(
@@ -205,7 +205,7 @@ unsigned long vtkIsopointUpdate::ReportFailure(isopoint::Failure& failure)
   std::string message;
   try
   {
-    this->Processes.together(
+    this->Processes.runCollectively(
       [&]()
       {
         message = isopoint::firstText(this->Processes, failure);

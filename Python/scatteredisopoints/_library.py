@@ -261,8 +261,8 @@ def at_fork(call: Callable[[], None]) -> None:
 
 
 class _Calls:
-    """Counts running calls. Those of daemon threads must end before the interpreter: it aborts if it stops
-    a thread within a callback, or one that prints an error."""
+    """Counts running calls, so that those of daemon threads end before the interpreter does. An interpreter that ends
+    while such a thread is in a callback, or prints an error, aborts the process."""
 
     changed = threading.Condition()
     count = 0

@@ -154,7 +154,8 @@ void onRanks(std::size_t size, const Work& work)
     [&](isopoint::Communicator& communicator)
     {
       isopoint::ProcessGroup processes(communicator);
-      processes.together([&]() { work(processes, static_cast<std::size_t>(processes.rank())); });
+      processes.runCollectively(
+        [&]() { work(processes, static_cast<std::size_t>(processes.rank())); });
     });
 }
 

@@ -74,7 +74,7 @@ bool expectRecovery(const Fault& fault, const std::vector<clouds::Cloud>& pieces
       onFirst([&]() { failingallocator::failAt(fault.allocation, false, fault.bytes); });
       try
       {
-        processes.together(
+        processes.runCollectively(
           [&]()
           {
             extractor.load<double, double>(execution, processes, piece.size(), read);
@@ -99,7 +99,7 @@ bool expectRecovery(const Fault& fault, const std::vector<clouds::Cloud>& pieces
         ++aborts;
       }
       onFirst([&]() { wasReached = failingallocator::stop() >= fault.allocation; });
-      processes.together(
+      processes.runCollectively(
         [&]()
         {
           if (processes.isAny(!isLoaded))
@@ -214,13 +214,13 @@ TEST(RanksFaults, EachCollectiveFunctionLearnsOfAFailure)
         };
         if (processes.rank() == 2)
         {
-          EXPECT_THROW(processes.together(work), std::bad_alloc);
+          EXPECT_THROW(processes.runCollectively(work), std::bad_alloc);
         }
         else
         {
-          EXPECT_THROW(processes.together(work), isopoint::FailedElsewhere);
+          EXPECT_THROW(processes.runCollectively(work), isopoint::FailedElsewhere);
         }
-        processes.together([&]() { EXPECT_EQ(processes.sum(2), 6u); });
+        processes.runCollectively([&]() { EXPECT_EQ(processes.sum(2), 6u); });
       }
     });
 }

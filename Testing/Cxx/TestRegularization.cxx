@@ -279,7 +279,7 @@ TEST(Regularization, EveryStepAsksForAborts)
     step();
     return asked;
   };
-  const std::vector<char> areKept(positions.size(), 0);
+  const std::vector<char> areFixed(positions.size(), 0);
   const std::size_t onePass = triangles.size() / most;
   const SurfaceMesh mesh({}, triangles, positions.size());
   EXPECT_GE(
@@ -290,7 +290,7 @@ TEST(Regularization, EveryStepAsksForAborts)
   // Twins: two passes over sides, at least one round; normals; order.
   Triangles changed = triangles;
   EXPECT_GE(
-    questionsOf([&]() { flipEdges(execution, positions, areKept, changed); }), 11 * onePass);
+    questionsOf([&]() { flipEdges(execution, positions, areFixed, changed); }), 11 * onePass);
   // The groups of the first merge, then three rounds of flips and merges.
   std::vector<std::size_t> groups(positions.size());
   std::transform(positions.begin(), positions.end(), groups.begin(),
