@@ -73,6 +73,45 @@ public:
   }
 };
 
+/// Whether a sample in a ball, or on its boundary, is far from the center along a direction.
+template <class TSample>
+class AlongSearch : public BallSearch<TSample>
+{
+public:
+  /// @param distance the least one, along the direction or against it
+  AlongSearch(const SampleTree<TSample>& tree, const Vector& center, double radius,
+    const Vector& direction, double distance)
+    : BallSearch<TSample>(tree, center, radius)
+    , Direction(direction)
+    , Least(distance * lengthOf(direction))
+  {
+  }
+
+  /// O(log n) mostly. @throws MissingNode at a node whose samples another rank holds
+  bool hasAny()
+  {
+    return searchRegion(
+      this->Tree, SampleTree<TSample>::rootNode, this->needed(this->Tree.region), *this);
+  }
+
+  bool add(std::size_t nodeIndex) const
+  {
+    const Node<TSample>& node = this->Tree.nodes[nodeIndex];
+    const auto first = this->Tree.samples.data() + node.begin;
+    return std::any_of(first, first + (node.positionsEnd() - node.begin),
+      [this](const TSample& sample)
+      {
+        const Vector offset = positionOf(sample) - this->Center;
+        return lengthOf(offset) <= this->Radius &&
+               std::abs(dot(offset, this->Direction)) >= this->Least;
+      });
+  }
+
+private:
+  const Vector Direction;
+  const double Least;
+};
+
 /// Finds the spacing of the samples around one of them.
 template <class TSample>
 class SpacingSearch : public BallSearch<TSample>
@@ -91,6 +130,9 @@ public:
     searchRegion(this->Tree, SampleTree<TSample>::rootNode, this->Tree.region, *this);
     return this->Radius;
   }
+
+  /// The distance to the nearest other position, after find().
+  double nearest() const { return this->Nearest.front().distance; }
 
   bool add(std::size_t nodeIndex)
   {

@@ -13,8 +13,8 @@ namespace isopoint
 /// the seven points that divide it into eight equal parts has no samples: its radius is a factor
 /// times the spacing, the distance from an end to the tenth nearest position, the greater of both
 /// ends. Long edges of slivers on the convex hull pass, because samples inside are close to them.
-/// Rejects all edges from rim to rim, with nothing behind either end, if the ball is twice as
-/// large.
+/// Edges from rim to rim, with nothing behind either end, are rejected by themselves if the radius
+/// is two spacings and the samples around both ends extend along the edge.
 template <class TCriterion>
 class VoidCriterion
 {
@@ -46,13 +46,32 @@ public:
     return this->mayDrop(own, other, spacing) &&
            this->isBare(tree, positionOf(own), positionOf(other), this->Factor * spacing) &&
            (this->Criterion.drops(tree, bounds, own, other) ||
-             (this->isBare(tree, positionOf(own), positionOf(other), bareFactor * spacing) &&
-               !GapCriterion::beyond().isDense(tree, bounds, own, other) &&
-               !GapCriterion::beyond().isDense(tree, bounds, other, own)));
+             this->joinsRims(tree, bounds, own, other, spacing));
   }
 
 private:
-  static constexpr double bareFactor = 2.0;
+  /// Whether an edge goes from rim to rim. Between layers or lines, where the samples around an end
+  /// do not extend along it, it is ordinary.
+  template <class TSample>
+  static bool joinsRims(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds,
+    const TSample& own, const TSample& other, double spacing)
+  {
+    constexpr double bareFactor = 2.0;
+    const Vector edge = positionOf(other) - positionOf(own);
+    return isBare(tree, positionOf(own), positionOf(other), bareFactor * spacing) &&
+           !GapCriterion::beyond().isDense(tree, bounds, own, other) &&
+           !GapCriterion::beyond().isDense(tree, bounds, other, own) &&
+           extendsAlong(tree, own, edge) && extendsAlong(tree, other, edge);
+  }
+
+  /// Whether one of the samples nearest to an end is as far from it along the edge as the nearest.
+  template <class TSample>
+  static bool extendsAlong(const SampleTree<TSample>& tree, const TSample& end, const Vector& edge)
+  {
+    SpacingSearch<TSample> around(tree, end);
+    const double spacing = around.find();
+    return AlongSearch<TSample>(tree, positionOf(end), spacing, edge, around.nearest()).hasAny();
+  }
 
   /// Whether the edge is so long that a ball on it may contain neither end.
   /// @param spacing at one end, or the greater one

@@ -51,8 +51,7 @@ public:
       const std::size_t y = this->CellOf.at(second);
       const bool isWeak = this->isWeak(x, y);
       const bool isStrong = bruteforce::isDroppedByGap(this->Cells, x, y, 4.0, 3);
-      const bool isOfRims =
-        this->SpansVoids && this->isEmptyBehind(x, y) && this->isEmptyBehind(y, x);
+      const bool isOfRims = this->SpansVoids && this->isAtRim(x, y) && this->isAtRim(y, x);
       const bool mayCount = isWeak || isStrong || isOfRims;
       const double bare = this->SpansVoids && mayCount ? this->bareShare(x, y) : 0.0;
       const auto spansVoid = [&](double factor)
@@ -76,6 +75,28 @@ private:
   {
     return bruteforce::isDense(this->Cells, y, x, 2.0, 2) &&
            bruteforce::isDense(this->Cells, x, y, 4.0, 3, 0.0) && this->isEmptyBehind(x, y);
+  }
+
+  /// Whether nothing is behind x, and the samples around x extend along the edge.
+  bool isAtRim(std::size_t x, std::size_t y) const
+  {
+    const Vector& origin = this->Cells[x].position;
+    const Vector edge = this->Cells[y].position - origin;
+    std::vector<std::pair<double, double>> others; // distance, and along the edge
+    for (const bruteforce::Cell& cell : this->Cells)
+    {
+      const Vector offset = cell.position - origin;
+      others.emplace_back(isopoint::lengthOf(offset), std::abs(isopoint::dot(offset, edge)));
+    }
+    std::sort(others.begin(), others.end()); // x is the first
+    const double spacing =
+      others.size() > 10 ? others[10].first : std::numeric_limits<double>::infinity();
+    return this->isEmptyBehind(x, y) &&
+           std::any_of(others.begin() + 1, others.end(),
+             [&](const auto& other) {
+               return other.first <= spacing &&
+                      other.second >= others[1].first * isopoint::lengthOf(edge);
+             });
   }
 
   bool isEmptyBehind(std::size_t x, std::size_t y) const

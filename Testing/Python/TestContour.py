@@ -7,7 +7,8 @@ import warnings
 
 import numpy as np
 import scatteredisopoints
-from scatteredisopoints import Samples, body, contour, vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
+from scatteredisopoints import (
+    Samples, body, contour, slice_samples, vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter)
 from vtk_data import assert_same, blocks_of, centers_in, cloud_of, named, updated
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkTable
@@ -194,6 +195,18 @@ class ContourTest(unittest.TestCase):
         centers = surface.points[surface.triangles].mean(axis=1)
         near = np.array([np.sqrt(((water - center) ** 2).sum(axis=1).min()) for center in centers])
         self.assertLess(near.max(), 3 * spacing)
+
+    def test_layers_and_lines_have_bodies(self):
+        """Two layers of a lattice far apart, as of a simulation one cell thick, and wells."""
+        axes = np.arange(0, 1.001, 0.02), np.arange(0, 0.6, 0.02), [0, 0.25]
+        layers = np.stack(np.meshgrid(*axes, indexing="ij"), -1).reshape(-1, 3)
+        self.assertAlmostEqual(body(layers).volume, 0.25 * 0.58)
+        section = slice_samples(layers, None, "z", (0, 0, 0.125))
+        self.assertAlmostEqual(section.area, 0.58, 6)
+        random = np.random.default_rng(5)
+        wells = np.repeat(100 * random.random((6, 2)), 40, axis=0)
+        wells = np.column_stack([wells, np.tile(np.arange(40.0), 6)]) + random.normal(0, 0.02, (240, 3))
+        self.assertGreater(body(wells).volume, 0.99 * body(wells, drop_gaps=False).volume)
 
     def test_gradient_direction(self):
         """The body at or below the isovalue is that of the negated values, which only the values at points show."""
