@@ -19,8 +19,8 @@ struct ExtractionRequest
   IsosurfaceRequest isosurface;
   std::optional<SplatOptions> splats = std::nullopt;
   /// Whether isopoints are the vertices of triangles: the isosurface of the Delaunay
-  /// tetrahedralization of the samples (docs/triangles.md). Then angle and minimum spacing have no
-  /// effect, and normals replace splats.
+  /// tetrahedralization of the samples (docs/triangles.md). Then the angle has no effect, and
+  /// normals replace splats.
   bool triangles = false;
   /// On ranks: how many rings of other ranks' triangles to add. Each ring consists of the triangles
   /// that share a vertex with the part inside it. The same on all ranks.

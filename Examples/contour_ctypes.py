@@ -29,7 +29,7 @@ class Options(ctypes.Structure):
         "triangles", "projection", "normal_method", "drop_gaps", "compute_normals",
         "compute_gradients", "compute_projection_orders", "output_points_precision",
         "number_of_neighbors", "compute_splats")),
-        ("angle", ctypes.c_double), 
+        ("angle", ctypes.c_double),
         ("keep_tetrahedra", ctypes.c_int32), ("regularize", ctypes.c_int32), ("keep_hull_slivers", ctypes.c_int32),
         ("capping", ctypes.c_int32),
         ("minimum_piece_size", ctypes.c_double)]

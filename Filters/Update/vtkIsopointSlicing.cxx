@@ -81,15 +81,15 @@ bool isOutermost(const isopoint::Report& report)
 std::string vtkIsopointSlicing::WhyEmpty(isopoint::OptionNaming naming) const
 {
   const isopoint::Report& report = this->Report;
-  const std::string tooFew = report.droppedInGaps > 0
-                               ? "all of it is in gaps between samples. Turn " +
-                                   naming(isopoint::option::dropGaps.name) + " off."
-                               : "the samples are in one plane, or fewer than four.";
+  const std::string whyNoTetrahedra = report.droppedInGaps > 0
+                                        ? "all of it is in gaps between samples. Turn " +
+                                            naming(isopoint::option::dropGaps.name) + " off."
+                                        : "the samples are in one plane, or fewer than four.";
   const auto isAny = [&](auto is)
   { return std::any_of(report.isovalues.begin(), report.isovalues.end(), is); };
   if (this->IsBody)
   {
-    return tooFew;
+    return whyNoTetrahedra;
   }
   if (report.isovalues.empty())
   {
@@ -105,7 +105,7 @@ std::string vtkIsopointSlicing::WhyEmpty(isopoint::OptionNaming naming) const
   }
   if (isAny([&](double value) { return value > report.least && value <= report.greatest; }))
   {
-    return tooFew;
+    return whyNoTetrahedra;
   }
   return isAny([&](double value) { return value == report.least; })
            ? "samples on it count as above it, and none are below. Move it among the samples."
@@ -149,7 +149,7 @@ void vtkIsopointSlicing::Slice(
   const vtkIsopointCut cut(options.Function);
   cut.Check();
   isopoint::checkOptions(options.Core);
-  this->Update.CheckOptionsOnRanks(textOf(options), "slice");
+  this->Update.CheckOptionsOnRanks(textOf(options), this->IsBody ? "find the body of" : "slice");
   const int ghostLevels = this->Update.GetGhostLevels(outputInfo);
 
   vtkIsopointCloud& cloud = this->Load(cut, inputInfo);

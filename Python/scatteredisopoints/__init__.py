@@ -37,7 +37,8 @@ _MODULES = {
     "ray_trace": ("ray_tracing",),
     **dict.fromkeys(("vtkIsopointSplatPolygons", "vtkScatteredBodyFilter", "vtkScatteredGradientFilter",
                      "vtkScatteredGridFilter", "vtkScatteredIsopointFilter", "vtkScatteredIsosurfaceFilter",
-                     "vtkScatteredLineFilter", "vtkScatteredProbeFilter", "vtkScatteredSliceFilter"), (*_COMPILED, "_vtk")),
+                     "vtkScatteredLineFilter", "vtkScatteredProbeFilter", "vtkScatteredSliceFilter"),
+                    (*_COMPILED, "_vtk")),
     **dict.fromkeys(("vtkIsopointPolygonMapper", "vtkIsopointRayTracer", "vtkIsopointSplatMapper",
                      "vtkScatteredAlgorithm", "vtkScatteredContourFilter"), _COMPILED)}
 

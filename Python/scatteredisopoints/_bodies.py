@@ -55,8 +55,9 @@ def make_body(samples: Samples, options: Mapping[str, Any], of_samples: Mapping[
         surface = samples._surface([-math.inf], chosen, {"progress": part(report, 0.3, 1.0)})
         skipped = _library.get_skipped_count(samples._extractor)
     found = samples._interpolated(surface, of_samples, None)
-    return Body(samples._as_isosurface(surface, found, [-math.inf], chosen, threads),
-                _library.get_dropped_count(surface), skipped)
+    isosurface = samples._as_isosurface(surface, found, [-math.inf], chosen, threads)
+    isosurface.cell_arrays = {}  # all is a cap
+    return Body(isosurface, _library.get_dropped_count(surface), skipped)
 
 
 def body_of(samples: Samples, arrays: Any, threads: Optional[int], progress: Progress, options: Mapping[str, Any],

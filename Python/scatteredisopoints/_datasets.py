@@ -183,10 +183,10 @@ def samples_with(data: Any, names: Sequence[str], associations: tuple[int, ...])
     return _gathered(data, block_of, describe)
 
 
-def has_numbers(data: Any) -> bool:
-    """Whether any block has an array of numbers of its points or cells."""
-    return any(True for leaf in leaves(data) if leaf.IsA("vtkDataSet")
-               for association in (POINT, CELL) for _ in named_arrays(leaf.GetAttributes(association)))
+def have_numbers(data: Any) -> bool:
+    """Whether all blocks have arrays of numbers of their points or cells."""
+    return all(any(True for association in (POINT, CELL) for _ in named_arrays(leaf.GetAttributes(association)))
+               for leaf in leaves(data) if leaf.IsA("vtkDataSet") and leaf.GetNumberOfPoints() > 0)
 
 
 def samples_at(data: Any, with_arrays: bool) -> DataSamples:
@@ -271,7 +271,7 @@ def _find(leaf: Any, name: Optional[str], associations: tuple[int, ...], attribu
 class NoSamplesError(ValueError):
     """A data object has no points, no cells or no array of values."""
 
-    def __init__(self, text: str = "The input has no points or cells. Give a data set with a scalar array.",
+    def __init__(self, text: str = "The input has no points or cells. Give a data set with points.",
                  without_array: int = 0):
         super().__init__(text)
         self.without_array = without_array  # points or cells

@@ -51,7 +51,7 @@ def filtered(
                              if name not in ("controller", "use_all_cores")})
     options = {**options}
     if direction_sign(options.pop("gradient_direction", "descent")) < 0:
-        raise TypeError("gradient_direction goes without a controller: contour the negated values")
+        raise TypeError("gradient_direction does not work with a controller: contour the negated values")
     for name, value in options.items():
         number = constant(name, value)
         getattr(isopoints, "Set" + property_name(name))(number)
@@ -77,7 +77,7 @@ def _isosurface(data: vtkPolyData, are_triangles: bool, levels: list[float]) -> 
     maker = PolyDataMaker("vtkmodules", is_of_pyvista(data), scalars and scalars.GetName())
     caps = {name: of_cells.pop(name) for name in ("IsCap",) if name in of_cells}
     return Isosurface(as_numpy(point_positions(data)), triangles, of_points, of_cells, maker, data, cell_arrays=caps,
-                      levels=levels)
+                      levels=levels, is_capped=bool(caps))
 
 
 def _cloud(positions: Any, values: Any, arrays: Optional[Mapping[str, Any]]) -> vtkPolyData:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The result of contour()."""
+"""The result of contour(), body() and slice_samples()."""
 
 from __future__ import annotations
 
@@ -51,6 +51,7 @@ class Isosurface:
         cell_arrays: Optional[Mapping[str, np.ndarray]] = None,
         levels: Iterable[float] = (math.nan,),
         isovalues: Optional[np.ndarray] = None,
+        is_capped: bool = False,
     ):
         self.points = points
         self.triangles = triangles
@@ -62,6 +63,7 @@ class Isosurface:
         self._threads = threads
         self._levels = sorted({*levels})
         self._isovalues = isovalues  # of points; None for one level
+        self._is_capped = is_capped
         self._measures: Optional[Measures] = None
 
     def __getstate__(self) -> dict[str, Any]:
@@ -106,7 +108,7 @@ class Isosurface:
         return importlib.import_module("trimesh").Trimesh(self.points, self.triangles, process=False)
 
     def save(self, path: Union[str, os.PathLike[str]]) -> None:
-        """Writes a file with all arrays that its format can hold. If this fails, an earlier one stays as it was.
+        """Writes a file, with all arrays of points that its format can hold. If this fails, an earlier one stays.
 
         Parameters
         ----------
@@ -162,7 +164,7 @@ class Isosurface:
                              " time.")
         if self._measures is None:
             isovalues = np.full(len(self), self._levels[0]) if self._isovalues is None else self._isovalues
-            self._measures = measure(self.points, self.triangles, isovalues, "IsCap" not in self.cell_arrays)
+            self._measures = measure(self.points, self.triangles, isovalues, not self._is_capped)
         return self._measures
 
     def _sums(self, name: str) -> Union[float, np.ndarray]:

@@ -17,7 +17,7 @@ class Piece(NamedTuple):
     """In the square of the unit of positions."""
     volume: float
     """Enclosed, in the cube of the unit of positions. With capping: positive for bodies and droplets, negative for
-    bubbles, the inner borders of bodies. Without: negative if values rise outward. NaN unless each edge has exactly
+    bubbles, the inner borders of bodies. Without: negative if normals point inward. NaN unless each edge has exactly
     two triangles."""
 
 

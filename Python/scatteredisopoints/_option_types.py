@@ -1,11 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Names and types of options, for type checkers and completion. Only they import this module."""
+"""Names and types of options, for type checkers and completion."""
 
 from __future__ import annotations
 
-from typing import Any, TypedDict, Union
+from typing import TYPE_CHECKING, Any, Literal, TypedDict, Union
 
-from typing_extensions import Unpack as Unpack
+if TYPE_CHECKING:
+    from typing_extensions import Unpack as Unpack
+else:
+    try:
+        from typing import Unpack  # since Python 3.11
+    except ImportError:
+        class Unpack:
+            """Keyword arguments of any type."""
+
+            def __class_getitem__(cls, _types):
+                return Any
 
 Constant = Union[str, int]
 """The name or the number of a constant."""
@@ -37,9 +47,8 @@ class ContourOptions(TypedDict, total=False):
     compute_projection_orders: bool
     compute_scalars: bool
     compute_splats: bool
-    controller: Any
     drop_gaps: bool
-    gradient_direction: str
+    gradient_direction: Literal["descent", "ascent"]
     keep_tree: bool
     minimum_piece_size: float
     normal_method: Constant
@@ -47,3 +56,9 @@ class ContourOptions(TypedDict, total=False):
     output_points_precision: Constant
     projection: Union[Constant, None]
     regularize: bool
+
+
+class OptionsOfContour(ContourOptions, total=False):
+    """Options of contour() alone."""
+
+    controller: Any

@@ -9,7 +9,7 @@ import threading
 import warnings
 import weakref
 from collections import OrderedDict
-from typing import TYPE_CHECKING, Any, Callable, Collection, Iterable, Mapping, Optional, Sequence, Union
+from typing import Any, Callable, Collection, Iterable, Mapping, Optional, Sequence, Union
 
 import numpy as np
 import pyvista as pv
@@ -19,15 +19,13 @@ from ._arrays import CELL, POINT, are_names, package_of
 from ._bodies import body_of
 from ._derivatives import DERIVATIVES
 from ._grids import box_of, grid_in, line_between, names_of_derivatives
+from ._option_types import BodyOptions, ContourOptions, Unpack
 from ._options import hint, switch
 from ._polydata import as_vtk
 from ._progress import Progress, shown_progress
 from ._samples import Samples
 from ._slices import sliced
 from ._splats import polygons_of
-
-if TYPE_CHECKING:
-    from ._option_types import BodyOptions, ContourOptions, Unpack
 
 
 # Parameters of the accessor by those of contour().
@@ -497,8 +495,8 @@ class ScatteredAccessor:
         names = [scalars] if isinstance(scalars, str) else scalars if are_names(scalars) else []
         if scalars is not None and not names:
             associations = (_datasets.association_of(data, np.shape(scalars)),)
-        elif scalars is None and not needs_arrays and not _datasets.has_numbers(data):
-            associations = associations[:1]
+        elif scalars is None and not needs_arrays and not _datasets.have_numbers(data):
+            return self._bare_samples(data, preference, progress, threads), {}
         samples = _kept_samples(
             data, ("without values", *names, *associations),
             lambda: _datasets.samples_with(data, names, associations), progress, threads, True)
@@ -508,6 +506,14 @@ class ScatteredAccessor:
         elif not names:
             return samples, {"values": scalars}
         return samples, {name: name for name in names}
+
+    def _bare_samples(self, data: Any, preference: str, progress: Progress, threads: Optional[int]) -> Samples:
+        """The samples of all blocks, with arrays or without."""
+        def find() -> _datasets.DataSamples:
+            return (_datasets.samples_with(data, (), (CELL,)) if preference == "cell" else
+                    _datasets.samples_at(data, with_arrays=True))
+
+        return _kept_samples(data, ("all blocks", preference), find, progress, threads, True)
 
     def _checked(self, preference: str) -> Any:
         data = self._dataset

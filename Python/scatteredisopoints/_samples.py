@@ -10,7 +10,7 @@ import warnings
 import weakref
 from ctypes import byref, c_double, c_void_p
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Iterable, Iterator, Mapping, Optional, Union
+from typing import Any, Iterable, Iterator, Mapping, Optional, Union
 
 import numpy as np
 
@@ -21,13 +21,11 @@ from ._bodies import body_of
 from ._cuts import Normal
 from ._interpolator import Interpolator
 from ._isosurface import Isosurface
+from ._option_types import BodyOptions, ContourOptions, SliceOptions, Unpack
 from ._options import (
     CONSTANTS, direction_sign, hint, make_options, make_probe_options, switch, thread_count)
 from ._progress import Progress, shown_progress
 from ._slices import sliced
-
-if TYPE_CHECKING:
-    from ._option_types import BodyOptions, ContourOptions, SliceOptions, Unpack
 
 _VALUES = {1: "values", -1: "negated values"}
 """The keys of the samples' own values by their sign: see Samples._hold()."""
@@ -49,7 +47,8 @@ class Extracted:
         """All messages."""
         of_library = _library.messages(self.surface)
         if self.sign < 0:
-            of_library = [replace(each, text=f"With negated values, as of gradient_direction: {each.text}")
+            prefix = "Of the negated values, as gradient_direction takes them: "
+            of_library = [replace(each, text=prefix + each.text) if each.cause.startswith("isovalues outside") else each
                           for each in of_library]
         return of_library + self.own_messages
 
@@ -65,8 +64,8 @@ class Samples:
     positions
         As in :func:`contour`.
     values
-        As in :func:`contour`; None: without values, for :meth:`probe`. A sample whose value is not finite takes no
-        part in any call.
+        As in :func:`contour`; None: without values, for :meth:`probe`, :meth:`slice` and :meth:`body`. A sample whose
+        value is not finite takes no part in any call.
     threads
         Maximum number of threads; None: all available cores.
     progress
@@ -526,7 +525,8 @@ class Samples:
         caps = {"IsCap": _library.view(surface, _library.CAPS)} if options.capping else {}
         return Isosurface(_library.view(surface, _library.POINTS), triangles, arrays, shapes, maker, threads=threads,
                           cell_arrays=caps, levels=levels,
-                          isovalues=_signed(_library.view(surface, _library.ISOVALUES), sign))
+                          isovalues=_signed(_library.view(surface, _library.ISOVALUES), sign),
+                          is_capped=bool(options.capping))
 
 
 _all: weakref.WeakSet[Samples] = weakref.WeakSet()

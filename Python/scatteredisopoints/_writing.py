@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 import csv
+import errno
 import importlib.util
+import math
 import os
 import zipfile
 from pathlib import Path
@@ -40,6 +42,8 @@ def writer_for(path: str, are_triangles: bool) -> Writer:
 def write_file(write: Writer, path: str, surface: Isosurface) -> None:
     """Writes a file. If this fails, an earlier one stays as it was."""
     path = os.path.realpath(path)
+    if not os.path.isdir(os.path.dirname(path)):
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), path)
     is_device = os.path.exists(path) and not os.path.isfile(path)
     target = path if is_device else f"{path}.part{Path(path).suffix}"
     try:
@@ -54,7 +58,7 @@ def _columns(surface: Isosurface) -> Iterator[tuple[str, np.ndarray]]:
     """Coordinates and the components of all arrays, as NAME:0."""
     yield from zip("xyz", surface.points.T)
     for name, array in surface.arrays.items():
-        flat = array.reshape(len(array), -1).T
+        flat = array.reshape(len(array), math.prod(array.shape[1:])).T
         yield from zip([name] if len(flat) == 1 else [f"{name}:{i}" for i in range(len(flat))], flat)
 
 
@@ -71,6 +75,9 @@ def write_csv(path: Union[str, int], surface: Isosurface) -> None:
 def _write_npz(path: str, surface: Isosurface) -> None:
     # Not by np.savez(), which takes the names of arrays for its own parameters.
     arrays = {**surface.arrays, **surface.cell_arrays, "points": surface.points, "triangles": surface.triangles}
+    for name in surface.arrays:
+        if arrays[name] is not surface.arrays[name]:
+            raise ValueError(f'The name "{name}" is that of something else in NPZ files: rename the array.')
     with zipfile.ZipFile(path, "w") as archive:
         for name in (name for name in arrays if arrays[name] is not None):
             with archive.open(f"{name}.npy", "w", force_zip64=True) as entry:
@@ -106,7 +113,8 @@ def _write_stl(path: str, surface: Isosurface) -> None:
 
 def _write_obj(path: str, surface: Isosurface) -> None:
     with open(path, "wb") as file:
-        np.savetxt(file, surface.points, "v %.9g %.9g %.9g")
+        digits = "%.9g" if surface.points.dtype == np.float32 else "%.17g"
+        np.savetxt(file, surface.points, f"v {digits} {digits} {digits}")
         if surface.triangles is not None:
             np.savetxt(file, surface.triangles + 1, "f %d %d %d")
 

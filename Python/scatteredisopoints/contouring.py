@@ -4,18 +4,16 @@
 from __future__ import annotations
 
 import importlib
-from typing import TYPE_CHECKING, Any, Iterable, Mapping, Optional, Union
+from typing import Any, Iterable, Mapping, Optional, Union
 
 from ._arrays import isovalues_of, package_of
 from ._bodies import body_of
 from ._datasets import data_object
 from ._isosurface import Isosurface
+from ._option_types import BodyOptions, OptionsOfContour, Unpack
 from ._progress import Progress, part, shown_progress
 from ._samples import Samples
 from .probing import samples_for
-
-if TYPE_CHECKING:
-    from ._option_types import BodyOptions, ContourOptions, Unpack
 
 
 def contour(
@@ -27,7 +25,7 @@ def contour(
     arrays: Optional[Mapping[str, Any]] = None,
     threads: Optional[int] = None,
     progress: Progress = None,
-    **options: Unpack[ContourOptions],
+    **options: Unpack[OptionsOfContour],
 ) -> Isosurface:
     """Extracts isosurfaces from scattered samples, as points or as triangles.
 
@@ -59,12 +57,14 @@ def contour(
         "QUADRATIC_FIT", "LINEAR_FIT", None), drop_gaps=False, compute_gradients=True,
         compute_projection_orders=True, compute_normals=False, compute_scalars=False, keep_tree=False,
         normal_method="NORMALS_FROM_PLANES" (or "NORMALS_FROM_FIELD"),
-        output_points_precision="SINGLE_PRECISION" (or "DOUBLE_PRECISION"); gradient_direction="ascent", as in
-        scikit-image: the body has values at or below the isovalue, as that of a distance does, and normals, triangles
-        and caps are those of the negated values. Of points only: compute_splats=False, angle=54.7, number_of_neighbors=12. Of triangles only: regularize=False;
-        capping=True, which closes the body of the samples at or above the isovalue where they end; and
-        minimum_piece_size=0.01, the least area of a connected component as a share of the largest one's, which leaves
-        out droplets and the bubbles in them.
+        output_points_precision="SINGLE_PRECISION" (or "DOUBLE_PRECISION"). Of points only: compute_splats=False,
+        angle=54.7, number_of_neighbors=12. Of triangles only: regularize=False, capping=True and
+        minimum_piece_size=0.01.
+
+        capping closes the body of the samples at or above the isovalue where they end. minimum_piece_size is the
+        least area of a connected component, as a share of the largest one's: it leaves out droplets and the bubbles
+        in them. With gradient_direction="ascent", as in scikit-image, the body has the values at or below the
+        isovalue, as that of a distance does: normals, triangles and caps are those of the negated values.
 
         With MPI, each process contours its own samples unless `controller` is given, which needs the compiled
         VTK classes: then all ranks must make this call, and only the first one raises errors.

@@ -3,17 +3,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Iterable, Optional, Union
+from typing import Any, Iterable, Optional, Union
 
 from ._cuts import Normal
 from ._isosurface import Isosurface
+from ._option_types import SliceOptions, Unpack
 from ._progress import Progress, part, shown_progress
 from ._samples import Samples
 from ._slices import sliced
 from .probing import samples_for
-
-if TYPE_CHECKING:
-    from ._option_types import SliceOptions, Unpack
 
 
 def slice_samples(

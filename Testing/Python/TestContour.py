@@ -170,7 +170,7 @@ class ContourTest(unittest.TestCase):
         of_data = body(data)
         for array, other in ((whole.points, of_data.points), (whole.triangles, of_data.triangles)):
             np.testing.assert_array_equal(array, other)
-        self.assertEqual(set(of_data.cell_arrays), {"IsCap"})
+        self.assertEqual(set(of_data.cell_arrays), set())
         samples = Samples(positions, distance)
         samples.contour(0.3)
         np.testing.assert_array_equal(samples.body().triangles, whole.triangles)
@@ -238,8 +238,8 @@ class ContourTest(unittest.TestCase):
         np.testing.assert_array_equal(kept.contour(0.3).points, before.points)
         self.assertGreater(contour(cloud_of(positions, distance), None, 0.3, gradient_direction="ascent",
                                    triangles=True).volume, 0)
-        with self.assertWarnsRegex(RuntimeWarning, "With negated values, as of gradient_direction: No isosurface at"
-                                   " -3: "):
+        with self.assertWarnsRegex(RuntimeWarning, "Of the negated values, as gradient_direction takes them: No"
+                                   " isosurface at -3: "):
             kept.contour(3.0, gradient_direction="ascent")
         with self.assertRaisesRegex(ValueError, "gradient_direction cannot be 'up': it is \"descent\" or"):
             kept.contour(0.3, gradient_direction="up")
@@ -310,7 +310,7 @@ class ContourTest(unittest.TestCase):
                     dict(projection="NORMALS_FROM_PLANES"), dict(normal_method="CUBIC_FIT"), dict(projection=99),
                     dict(projection="update"), dict(angle="CUBIC_FIT")))):
             with self.subTest(options=options, text=text), self.assertRaisesRegex(error, text):
-                contour(*arguments, **options)
+                contour(*arguments, *([0.3] if len(arguments) == 2 else []), **options)
 
     def test_isovalues(self):
         positions, values = samples()

@@ -19,6 +19,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import typing
 import unittest
 import warnings
 import weakref
@@ -27,7 +28,8 @@ from unittest import mock
 import numpy as np
 import scatteredisopoints
 from scatteredisopoints import (
-    Interpolator, Isosurface, Samples, _bodies, _library, _options, contour, contouring, gradient, probe)
+    Interpolator, Isosurface, Samples, _bodies, _library, _option_types, _options, contour, contouring, gradient,
+    probe)
 
 HEADER = pathlib.Path(__file__).parents[2] / "Library/isopoint.h"
 
@@ -374,13 +376,12 @@ class Results(unittest.TestCase):
             Samples(positions, values).contour()
 
     def test_option_types_name_all_options(self):
-        """Without typing_extensions, which only type checkers need."""
-        with mock.patch.dict(sys.modules, typing_extensions=mock.MagicMock()):
-            types = importlib.import_module("scatteredisopoints._option_types")
-        contour_options = {*_options.option_names(False), *_options.option_names(True)}
-        self.assertEqual({*types.ContourOptions.__annotations__}, contour_options | {"controller", "gradient_direction"})
-        self.assertEqual({*types.SliceOptions.__annotations__}, {*_options.OF_SLICES})
-        self.assertEqual({*types.BodyOptions.__annotations__}, {*_bodies.OPTIONS})
+        of_contour = {*_options.option_names(False), *_options.option_names(True), "gradient_direction"}
+        self.assertEqual({*_option_types.ContourOptions.__annotations__}, of_contour)
+        self.assertEqual({*_option_types.SliceOptions.__annotations__}, {*_options.OF_SLICES})
+        self.assertEqual({*_option_types.BodyOptions.__annotations__}, {*_bodies.OPTIONS})
+        for function in (contour, scatteredisopoints.body, scatteredisopoints.slice_samples, Samples.contour):
+            self.assertIn("options", typing.get_type_hints(function))
 
     def test_files_and_meshes(self):
         surface = contour(*cloud(2000), 0.4, triangles=True)
@@ -389,6 +390,18 @@ class Results(unittest.TestCase):
             surface.save(path)
             with np.load(path) as file:
                 np.testing.assert_array_equal(file["triangles"], surface.triangles)
+            with np.errstate(all="ignore"), warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                empty = contour(*cloud(2000), 9.0, triangles=True)
+            for kind in ("ply", "stl", "obj", "npz", "csv"):
+                for each in (surface, empty):
+                    each.save(f"{folder}/saved.{kind}")
+                os.unlink(f"{folder}/saved.{kind}")
+            surface.arrays["points"] = surface.arrays["values"]
+            with self.assertRaisesRegex(ValueError, 'The name "points" is that of something else in NPZ files: rename'):
+                surface.save(path)
+            with self.assertRaisesRegex(FileNotFoundError, "nowhere/a.ply'"):
+                surface.save(f"{folder}/nowhere/a.ply")
             with self.assertRaisesRegex(ValueError, "the format of .*surface.xyz is unknown: there are .ply"):
                 surface.save(f"{folder}/surface.xyz")
             self.assertEqual([each.name for each in path.parent.iterdir()], ["surface.npz"])

@@ -446,6 +446,9 @@ class Probing(unittest.TestCase):
         self.assertEqual(bare.scattered.body(preference="cell").n_points, surface.n_points)  # vertex cells
         self.assertGreater(bare.scattered.slice("x").n_points, 100)
         self.assertGreater(pv.MultiBlock([bare, bare.translate((2, 0, 0))]).scattered.body().n_points, surface.n_points)
+        named = bare.translate((3, 0, 0))
+        named["a"] = named.points[:, 0]
+        self.assertAlmostEqual(pv.MultiBlock([bare, named]).scattered.body().volume, 2 * surface.volume, 4)
         grid = pv.ImageData(dimensions=(5, 6, 7))
         self.assertAlmostEqual(grid.scattered.body().volume, 4 * 5 * 6)
         grid.cell_data["number"] = np.arange(grid.n_cells)
