@@ -172,7 +172,7 @@ def bodies_become_hulls():
     shown, body, hull = use("ScatteredBody", [set_property("DropGaps", "false")], after=FRAME_OF_CUBE)
     check(shown["ScatteredBody1"] == [1, "Surface"], str(shown))
     check(50 < len(hull) < len(body), f"{len(body)} points of the body, {len(hull)} of its hull")
-    check(np.allclose(body["value"], sum(np.sin(3 * body[f"Points:{i}"]) for i in range(3)), atol=1e-5), "values")
+    check(np.allclose(body["value"], sum(np.sin(3 * body[f"Points:{i}"]) for i in range(3)), atol=1e-3), "values")
 
 
 def probes_ask_for_their_places():

@@ -448,7 +448,9 @@ class Probing(unittest.TestCase):
         self.assertGreater(pv.MultiBlock([bare, bare.translate((2, 0, 0))]).scattered.body().n_points, surface.n_points)
         named = bare.translate((3, 0, 0))
         named["a"] = named.points[:, 0]
-        self.assertAlmostEqual(pv.MultiBlock([bare, named]).scattered.body().volume, 2 * surface.volume, 4)
+        with self.assertWarnsRegex(RuntimeWarning, 'Left out are "a"'):
+            both = pv.MultiBlock([bare, named]).scattered.body()
+        self.assertGreater(both.volume, 1.95 * surface.volume)
         grid = pv.ImageData(dimensions=(5, 6, 7))
         self.assertAlmostEqual(grid.scattered.body().volume, 4 * 5 * 6)
         grid.cell_data["number"] = np.arange(grid.n_cells)
