@@ -49,41 +49,16 @@ protected:
   double Radius;
 };
 
-/// Whether there is no sample in a ball or on its boundary.
-template <class TSample>
-class EmptyBallSearch : public BallSearch<TSample>
+/// Whether a sample in a ball, or on its boundary, is of a kind.
+template <class TSample, class Kind>
+class AnyInBallSearch : public BallSearch<TSample>
 {
 public:
-  using BallSearch<TSample>::BallSearch;
-
-  /// O(log n) mostly. @throws MissingNode at a node whose samples another rank holds
-  bool isEmpty()
-  {
-    return !searchRegion(
-      this->Tree, SampleTree<TSample>::rootNode, this->needed(this->Tree.region), *this);
-  }
-
-  bool add(std::size_t nodeIndex) const
-  {
-    const Node<TSample>& node = this->Tree.nodes[nodeIndex];
-    const auto first = this->Tree.samples.data() + node.begin;
-    return std::any_of(first, first + (node.positionsEnd() - node.begin),
-      [this](const TSample& sample)
-      { return lengthOf(positionOf(sample) - this->Center) <= this->Radius; });
-  }
-};
-
-/// Whether a sample in a ball, or on its boundary, is far from the center along a direction.
-template <class TSample>
-class AlongSearch : public BallSearch<TSample>
-{
-public:
-  /// @param distance the least one, along the direction or against it
-  AlongSearch(const SampleTree<TSample>& tree, const Vector& center, double radius,
-    const Vector& direction, double distance)
+  /// @param isOfKind of the sample's offset from the center
+  AnyInBallSearch(
+    const SampleTree<TSample>& tree, const Vector& center, double radius, const Kind& isOfKind)
     : BallSearch<TSample>(tree, center, radius)
-    , Direction(direction)
-    , Least(distance * lengthOf(direction))
+    , IsOfKind(isOfKind)
   {
   }
 
@@ -102,14 +77,12 @@ public:
       [this](const TSample& sample)
       {
         const Vector offset = positionOf(sample) - this->Center;
-        return lengthOf(offset) <= this->Radius &&
-               std::abs(dot(offset, this->Direction)) >= this->Least;
+        return lengthOf(offset) <= this->Radius && this->IsOfKind(offset);
       });
   }
 
 private:
-  const Vector Direction;
-  const double Least;
+  const Kind IsOfKind;
 };
 
 /// Finds the spacing of the samples around one of them.

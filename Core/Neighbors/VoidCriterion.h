@@ -5,6 +5,7 @@
 #include "Core/Neighbors/SampleSpacing.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace isopoint
 {
@@ -70,7 +71,9 @@ private:
   {
     SpacingSearch<TSample> around(tree, end);
     const double spacing = around.find();
-    return AlongSearch<TSample>(tree, positionOf(end), spacing, edge, around.nearest()).hasAny();
+    const double least = around.nearest() * lengthOf(edge);
+    const auto isAlong = [&](const Vector& offset) { return std::abs(dot(offset, edge)) >= least; };
+    return AnyInBallSearch(tree, positionOf(end), spacing, isAlong).hasAny();
   }
 
   /// Whether the edge is so long that a ball on it may contain neither end.
@@ -88,13 +91,14 @@ private:
     const SampleTree<TSample>& tree, const Vector& a, const Vector& b, double radius)
   {
     constexpr int partCount = 8;
+    const auto isAny = [](const Vector& /*offset*/) { return true; };
     bool isBare = false;
     for (int i = 1; i < partCount && !isBare; ++i)
     {
       const double share = static_cast<double>(i) / partCount;
       const Vector place = (1.0 - share) * a + share * b;
       isBare = lengthOf(place - (i <= partCount / 2 ? a : b)) > radius &&
-               EmptyBallSearch<TSample>(tree, place, radius).isEmpty();
+               !AnyInBallSearch(tree, place, radius, isAny).hasAny();
     }
     return isBare;
   }
