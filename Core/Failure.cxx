@@ -40,7 +40,7 @@ Failure describe()
   }
   catch (const UsageError& error)
   {
-    return { Failure::InvalidUsage, error.what() };
+    return { Failure::InvalidUsage, error.what(), error.kind };
   }
   catch (const TreeTooLarge& error)
   {

@@ -12,7 +12,22 @@ class ProcessGroup;
 /// Invalid input or options. what() tells the user the cause, then the remedy, in a sentence each.
 struct UsageError : std::runtime_error
 {
-  using std::runtime_error::runtime_error;
+  enum Kinds
+  {
+    Argument, // a pointer, a number or the samples
+    Array,    // its type, size or memory
+    Option,   // out of range, or not with another one
+    Order,    // another call has to come first
+    Fork      // the process was forked during a call
+  };
+
+  explicit UsageError(const std::string& text, Kinds ofKind = Argument)
+    : std::runtime_error(text)
+    , kind(ofKind)
+  {
+  }
+
+  Kinds kind;
 };
 
 /// Why an extraction ended without a result.
@@ -28,7 +43,9 @@ struct Failure
     Bug
   };
   Kinds kind = None;
-  std::string text; // for the user: the cause, then the remedy; may be empty
+  std::string text{}; // for the user: the cause, then the remedy; may be empty
+
+  UsageError::Kinds usage = UsageError::Argument; // of InvalidUsage
 
   /// Whether to drop data kept for further extractions: memory is needed, or they may be invalid.
   bool spoilsTree() const { return this->kind == OutOfMemory || this->kind == Bug; }

@@ -66,22 +66,24 @@ void checkOptions(const Options& options, OptionNaming naming)
         message << naming(option.name) << " is " << value
                 << ", which is out of range. Set it to a value from " << option.least << " to "
                 << option.greatest << ".";
-        throw UsageError(message.str());
+        throw UsageError(message.str(), UsageError::Option);
       }
     });
   if (options.triangles && options.capping &&
       options.projection == static_cast<int>(FitOrder::Crease))
   {
     throw UsageError(naming(option::capping.name) + " has no creases: set " +
-                     naming(option::projection.name) + " to the cubic fit, 3, or less.");
+                       naming(option::projection.name) + " to the cubic fit, 3, or less.",
+      UsageError::Option);
   }
   if (options.triangles && options.capping &&
       (options.computeGradients || options.normalMethod == static_cast<int>(NormalMethod::Field)))
   {
     throw UsageError(naming(option::capping.name) + " has no gradients: set " +
-                     naming(option::computeGradients.name) + " off and " +
-                     naming(option::normalMethod.name) +
-                     " to planes, and compute gradients at the samples.");
+                       naming(option::computeGradients.name) + " off and " +
+                       naming(option::normalMethod.name) +
+                       " to planes, and compute gradients at the samples.",
+      UsageError::Option);
   }
 }
 

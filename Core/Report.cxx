@@ -90,37 +90,44 @@ Message describeIsovaluesOutside(const Report& report, const std::vector<double>
   const std::string least = textOf(report.least, digits);
   if (report.least == report.greatest)
   {
-    return { "constant array " + report.array, "No isosurface: all values of " +
-                                                 describeArray(report) + " are " + least +
-                                                 ". Choose another array." };
+    return { "constant array " + report.array,
+      "No isosurface: all values of " + describeArray(report) + " are " + least +
+        ". Choose another array.",
+      Message::Warning, Message::ConstantValues };
   }
   const std::string isovalues = join(outside, digits);
+  const std::string greatest = textOf(report.greatest, digits);
   return { "isovalues outside of " + report.array + ": " + isovalues,
     "No isosurface at " + isovalues + ": " + describeArray(report) + " is from " + least + " to " +
-      textOf(report.greatest, digits) + ". Choose isovalues that are greater than " + least +
-      ", up to " + textOf(report.greatest, digits) + "." };
+      greatest + ". Choose isovalues that are greater than " + least +
+      (report.areTriangles ? " and less than " : ", up to ") + greatest + ".",
+    Message::Warning, Message::IsovalueOutside };
 }
 
 /// Why an isovalue in the range has no surface, and the remedy.
-std::string reasonOfEmptyIsovalue(const Report& report, OptionNaming naming)
+std::pair<Message::Codes, std::string> reasonOfEmptyIsovalue(
+  const Report& report, OptionNaming naming)
 {
   constexpr std::uint64_t fewest = 4; // of a tetrahedron
   const std::uint64_t used = report.samples - report.skippedCount();
   if (used < fewest)
   {
-    return "there are only " + std::to_string(used) + " samples. Add samples around the surface.";
+    return { Message::TooFewSamples,
+      "there are only " + std::to_string(used) + " samples. Add samples around the surface." };
   }
   if (report.droppedInGaps > 0)
   {
-    return "all of it is in gaps between samples. Turn " + naming(option::dropGaps.name) + " off.";
+    return { Message::AllInGaps,
+      "all of it is in gaps between samples. Turn " + naming(option::dropGaps.name) + " off." };
   }
   if (report.contoursBlocks)
   {
-    return "no block has a surface of its own. Turn " + naming("ContourBlocks") + " off.";
+    return { Message::NoCrossing,
+      "no block has a surface of its own. Turn " + naming("ContourBlocks") + " off." };
   }
-  return report.areTriangles
-           ? "the samples are in one plane. Apply Delaunay 2D and Contour instead."
-           : "samples at one position count with the mean of their values.";
+  return { Message::NoCrossing,
+    report.areTriangles ? "the samples are in one plane. Apply Delaunay 2D and Contour instead."
+                        : "samples at one position count with the mean of their values." };
 }
 
 /// For isovalues in the range.
@@ -132,8 +139,9 @@ Message describeEmptyIsovalues(
     return {};
   }
   const std::string isovalues = join(empty, digitsFor(report, empty));
+  const auto [code, reason] = reasonOfEmptyIsovalue(report, naming);
   return { "isovalues without points in " + report.array + ": " + isovalues,
-    "No isosurface at " + isovalues + ": " + reasonOfEmptyIsovalue(report, naming) };
+    "No isosurface at " + isovalues + ": " + reason, Message::Warning, code };
 }
 
 std::vector<Message> describeIsovalues(const Report& report, OptionNaming naming)
@@ -145,7 +153,10 @@ std::vector<Message> describeIsovalues(const Report& report, OptionNaming naming
     const double value = report.isovalues[i];
     if (report.points[i] == 0 && report.least <= report.greatest)
     {
-      const bool isInside = value > report.least && value <= report.greatest;
+      // Triangles at the greatest value shrink to the samples that have it.
+      const bool isInside =
+        value > report.least &&
+        (value < report.greatest || (value == report.greatest && !report.areTriangles));
       (isInside ? empty : outside).push_back(value);
     }
   }
@@ -172,7 +183,8 @@ Message describeUnprojected(const Report& report, OptionNaming naming)
       " points: the surface may be rough. Smooth the values if they are noisy. For samples on a"
       " surface, such as a plane or a shell, set " +
       naming(option::projection.name) +
-      " to None. Samples along lines, such as drill holes, do not determine a surface." };
+      " to None. Samples along lines, such as drill holes, do not determine a surface.",
+    Message::Warning, Message::PointsWithoutFit };
 }
 
 /// If more than a tenth of the corners stay apart, pictures have holes.
@@ -190,7 +202,8 @@ Message describeCornersApart(const Report& report)
     "Splats do not meet at " + std::to_string(report.cornersApart) + " of " +
       std::to_string(report.innerCorners) +
       " corners: the picture may have holes, since samples are too uneven or too few for splats."
-      " Extract triangles instead: with Scattered Isosurface, in Python with triangles=True." };
+      " Extract triangles instead: with Scattered Isosurface, in Python with triangles=True.",
+    Message::Warning, Message::SplatsApart };
 }
 
 Message describeBeyondFloat(const Report& report)
@@ -203,7 +216,8 @@ Message describeBeyondFloat(const Report& report)
              tenths(report.beyondFloat, report.pointCount()),
     "Arrays of type float cannot hold positions or splats of " +
       std::to_string(report.beyondFloat) + " of " + std::to_string(report.pointCount()) +
-      " points. Choose another unit of length." };
+      " points. Choose another unit of length.",
+    Message::Warning, Message::BeyondFloat };
 }
 
 std::vector<Message> describeReplacedArrays(const Report& report)
@@ -255,9 +269,9 @@ Message describeSkipped(
                            std::to_string(counts.samples) + " samples: " + join(parts) + ". ";
   if (skipped == counts.samples)
   {
-    return { cause, text + ofNone };
+    return { cause, text + ofNone, Message::Warning, Message::NoSamples };
   }
-  return { cause, text + ofSome, Message::Note };
+  return { cause, text + ofSome, Message::Note, Message::SkippedSamples };
 }
 
 void SampleCounts::count(const IsosurfaceExtractor& extractor, const CloudCounts& cloud)

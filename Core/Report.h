@@ -25,9 +25,24 @@ struct Message
     Warning, // the result is not as requested
     Note     // it is, and there is something to know
   };
+  enum Codes // as isopoint_message_code
+  {
+    NoCode = 0, // of filters alone
+    SkippedSamples = 1,
+    NoSamples = 2,
+    ConstantValues = 3,
+    IsovalueOutside = 4,
+    TooFewSamples = 5,
+    AllInGaps = 6,
+    NoCrossing = 7,
+    PointsWithoutFit = 8,
+    SplatsApart = 9,
+    BeyondFloat = 10
+  };
   std::string cause; // constant in repeated extractions while it lasts
   std::string text;  // the cause, then the remedy, as lists may truncate it
   Kinds kind = Warning;
+  Codes code = NoCode;
 };
 
 /// Item counts of a cloud, from its caller.

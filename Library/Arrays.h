@@ -43,7 +43,8 @@ decltype(auto) withType(std::int32_t type, const Visitor& visit)
       return visit(std::uint64_t{});
     default:
       throw UsageError(
-        "The type of an array, " + std::to_string(type) + ", is unknown. Use an isopoint_type.");
+        "The type of an array, " + std::to_string(type) + ", is unknown. Use an isopoint_type.",
+        UsageError::Array);
   }
 }
 
@@ -68,15 +69,16 @@ public:
   {
     if (!array)
     {
-      throw UsageError(this->Described + " is null. Pass an isopoint_array.");
+      throw UsageError(this->Described + " is null. Pass an isopoint_array.", UsageError::Array);
     }
     this->Array = *array;
     if (array->components < 1 || array->count < 0 || (array->count > 0 && !array->data))
     {
       throw UsageError(this->Described + " has " + std::to_string(array->count) + " tuples of " +
-                       std::to_string(array->components) + " components" +
-                       (array->data ? "" : " and no data") +
-                       ". Pass at least one component, and memory for all tuples.");
+                         std::to_string(array->components) + " components" +
+                         (array->data ? "" : " and no data") +
+                         ". Pass at least one component, and memory for all tuples.",
+        UsageError::Array);
     }
     const std::size_t size = sizeOfType(array->type);
     this->ComponentStride =
@@ -90,14 +92,25 @@ public:
   std::size_t count() const { return static_cast<std::size_t>(this->Array.count); }
   int components() const { return this->Array.components; }
 
+  /// @throws UsageError if the numbers are integers
+  void requireFloatingPoint() const
+  {
+    if (!isFloatingPoint(this->type()))
+    {
+      throw UsageError(
+        this->Described + " holds integers. Pass float or double.", UsageError::Array);
+    }
+  }
+
   /// @throws UsageError unless there are `count` tuples of `components` numbers
   void require(std::size_t count, int components) const
   {
     if (this->count() != count || this->components() != components)
     {
       throw UsageError(this->Described + " has " + std::to_string(this->count()) + " tuples of " +
-                       std::to_string(this->components()) + " components. Pass " +
-                       std::to_string(count) + " of " + std::to_string(components) + ".");
+                         std::to_string(this->components()) + " components. Pass " +
+                         std::to_string(count) + " of " + std::to_string(components) + ".",
+        UsageError::Array);
     }
   }
 

@@ -8,11 +8,11 @@
 #include "Library/RunningCall.h"
 #include "Library/SampleReader.h"
 #include "Library/Surface.h"
+#include "Library/VersionedOptions.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
-#include <cstring>
 #include <limits>
 #include <memory>
 #include <new>
@@ -40,6 +40,23 @@ isopoint_status fail(isopoint_status status, std::string& message)
   return status;
 }
 
+isopoint_status statusOf(UsageError::Kinds kind)
+{
+  switch (kind)
+  {
+    case UsageError::Array:
+      return ISOPOINT_INVALID_ARRAY;
+    case UsageError::Option:
+      return ISOPOINT_INVALID_OPTION;
+    case UsageError::Order:
+      return ISOPOINT_INVALID_ORDER;
+    case UsageError::Fork:
+      return ISOPOINT_FORKED;
+    default:
+      return ISOPOINT_INVALID_ARGUMENT;
+  }
+}
+
 /// Converts the current exception to a status and a message.
 isopoint_status failWithException()
 {
@@ -50,7 +67,7 @@ isopoint_status failWithException()
       failure.text = "Canceled."; // short: not allocated
       return fail(ISOPOINT_CANCELED, failure.text);
     case isopoint::Failure::InvalidUsage:
-      return fail(ISOPOINT_INVALID_ARGUMENT, failure.text);
+      return fail(statusOf(failure.usage), failure.text);
     case isopoint::Failure::OutOfMemory:
       return fail(ISOPOINT_OUT_OF_MEMORY, failure.text);
     default:
@@ -156,21 +173,16 @@ void forEachMember(const Visitor& visit)
   visit(&C::minimum_piece_size, &Core::minimumPieceSize);
 }
 
-/// @param given null for the defaults, or options of this version
-/// @throws UsageError if they are of another version, or out of range
+/// @param given null for the defaults, or options of any version 1.x
+/// @throws UsageError if one is unknown or out of range
 isopoint::Options optionsFrom(const isopoint_options* given)
 {
   isopoint_options all;
   isopoint_initialize_options(&all, sizeof(all));
   if (given)
   {
-    if (given->size != sizeof(all))
-    {
-      throw UsageError("The size of the options is " + std::to_string(given->size) +
-                       ". Set them up by isopoint_initialize_options(), with the header of this"
-                       " version of the library.");
-    }
-    all = *given;
+    constexpr std::size_t sizeOf1_0 = 80;
+    isopoint::takeOptions(*given, sizeOf1_0, "isopoint_initialize_options()", all);
   }
   isopoint::Options options;
   forEachMember(
@@ -181,7 +193,8 @@ isopoint::Options optionsFrom(const isopoint_options* given)
       if (std::is_same_v<T, bool> && all.*member != 0 && all.*member != 1)
       {
         throw UsageError("An option that is 0 or 1 is " + std::to_string(all.*member) +
-                         ". Use 0 for off and 1 for on.");
+                           ". Use 0 for off and 1 for on.",
+          UsageError::Option);
       }
     });
   options = isopoint::effectiveOptions(options);
@@ -257,7 +270,8 @@ std::vector<isopoint::Message> describe(const isopoint::Report& report)
   if (messages.empty() && report.samples == report.skippedCount())
   {
     messages.push_back(
-      { "no samples", "No isosurface: no sample takes part. Pass samples that are not excluded." });
+      { "no samples", "No isosurface: no sample takes part. Pass samples that are not excluded.",
+        isopoint::Message::Warning, isopoint::Message::NoSamples });
   }
   return messages;
 }
@@ -298,7 +312,8 @@ void requireSamples(const isopoint_extractor& extractor)
 {
   if (!extractor.HasSamples)
   {
-    throw UsageError("The extractor has no samples. Call isopoint_set_samples() first.");
+    throw UsageError(
+      "The extractor has no samples. Call isopoint_set_samples() first.", UsageError::Order);
   }
 }
 
@@ -311,10 +326,7 @@ void isopoint_initialize_options(isopoint_options* options, size_t size)
   const isopoint::Options defaults;
   forEachMember([&](auto member, auto option)
     { all.*member = static_cast<std::decay_t<decltype(all.*member)>>(defaults.*option); });
-  if (options)
-  {
-    std::memcpy(options, &all, std::min(size, sizeof(all)));
-  }
+  isopoint::giveOptions(all, options, size);
 }
 
 const char* isopoint_version(void)
@@ -412,10 +424,7 @@ void isopoint_initialize_probe_options(isopoint_probe_options* options, size_t s
   isopoint_probe_options all{};
   all.size = size;
   all.outside_number = isopoint::ProbeOptions().outsideNumber;
-  if (options)
-  {
-    std::memcpy(options, &all, std::min(size, sizeof(all)));
-  }
+  isopoint::giveOptions(all, options, size);
 }
 
 isopoint_status isopoint_probe(isopoint_extractor* extractor, const isopoint_array* places,
@@ -500,7 +509,8 @@ isopoint_status isopoint_extract(isopoint_extractor* extractor, const double* is
       requireSamples(*extractor);
       if (!extractor->HasValues)
       {
-        throw UsageError("The samples have no values. Pass values to isopoint_set_samples().");
+        throw UsageError(
+          "The samples have no values. Pass values to isopoint_set_samples().", UsageError::Order);
       }
       const isopoint::Options chosen = optionsFrom(options);
       isopoint::Report report(
@@ -579,6 +589,12 @@ const char* isopoint_get_message_cause(const isopoint_surface* surface, int64_t 
 {
   const isopoint::Message* const message = messageAt(surface, index);
   return message ? message->cause.c_str() : nullptr;
+}
+
+int32_t isopoint_get_message_code(const isopoint_surface* surface, int64_t index)
+{
+  const isopoint::Message* const message = messageAt(surface, index);
+  return message ? message->code : 0;
 }
 
 isopoint_status isopoint_join_messages(isopoint_surface* surface, const isopoint_surface* other)

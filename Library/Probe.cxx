@@ -4,6 +4,7 @@
 #include "Core/Contour.h"
 #include "Core/Failure.h"
 #include "Library/Arrays.h"
+#include "Library/VersionedOptions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,10 +42,7 @@ std::vector<Vector> placesFrom(const isopoint_array* places)
 {
   const ArrayReader reader(places, "places");
   reader.require(reader.count(), 3);
-  if (!isFloatingPoint(reader.type()))
-  {
-    throw UsageError("The array of places holds integers. Pass float or double.");
-  }
+  reader.requireFloatingPoint();
   std::vector<Vector> all(reader.count());
   for (std::size_t i = 0; i < all.size(); ++i)
   {
@@ -59,23 +57,20 @@ ProbeOptions probeOptionsFrom(const isopoint_probe_options* given)
   isopoint_initialize_probe_options(&all, sizeof(all));
   if (given)
   {
-    if (given->size != sizeof(all))
-    {
-      throw UsageError("The size of the options is " + std::to_string(given->size) +
-                       ". Set them up by isopoint_initialize_probe_options(), with the header of"
-                       " this version of the library.");
-    }
-    all = *given;
+    constexpr std::size_t sizeOf1_0 = 24;
+    takeOptions(*given, sizeOf1_0, "isopoint_initialize_probe_options()", all);
   }
   if (all.method < ISOPOINT_METHOD_BLEND || all.method > ISOPOINT_METHOD_NEAREST)
   {
     throw UsageError(
-      "The method is " + std::to_string(all.method) + ". Use an ISOPOINT_METHOD, 0 to 4.");
+      "The method is " + std::to_string(all.method) + ". Use an ISOPOINT_METHOD, 0 to 4.",
+      UsageError::Option);
   }
   if (all.outside < ISOPOINT_OUTSIDE_NUMBER || all.outside > ISOPOINT_OUTSIDE_EXTRAPOLATE)
   {
-    throw UsageError("The option outside is " + std::to_string(all.outside) +
-                     ". Use an ISOPOINT_OUTSIDE, 0 to 2.");
+    throw UsageError(
+      "The option outside is " + std::to_string(all.outside) + ". Use an ISOPOINT_OUTSIDE, 0 to 2.",
+      UsageError::Option);
   }
   return { static_cast<PlaceMethod>(all.method), static_cast<OutsideStrategy>(all.outside),
     all.outside_number };
@@ -142,7 +137,8 @@ ProbedArray probedArray(const isopoint_array& array, const isopoint_probed& resu
   {
     if (result.gradients)
     {
-      throw UsageError("The method NEAREST has no gradients. Pass null, or use another method.");
+      throw UsageError("The method NEAREST has no gradients. Pass null, or use another method.",
+        UsageError::Option);
     }
     return probed;
   }
@@ -160,7 +156,8 @@ isopoint_weights isopoint_neighborhoods::weights()
   if (this->found.options.method == isopoint::PlaceMethod::Blend)
   {
     throw isopoint::UsageError(
-      "BLEND has no weights, because it is not linear in the values. Use another method.");
+      "BLEND has no weights, because it is not linear in the values. Use another method.",
+      isopoint::UsageError::Option);
   }
   if (this->begins.empty())
   {

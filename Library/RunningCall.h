@@ -26,7 +26,8 @@ public:
     {
       throw UsageError(
         "This process was forked during a call of another thread: it cannot contour. Fork between"
-        " calls, or start processes anew, in Python by the method \"spawn\".");
+        " calls, or start processes anew, in Python by the method \"spawn\".",
+        UsageError::Fork);
     }
     ++Count;
   }

@@ -29,17 +29,15 @@ public:
       this->Values.emplace(values, "values");
       this->Values->require(this->Positions.count(), 1);
     }
-    if (!isFloatingPoint(this->Positions.type()))
-    {
-      throw UsageError("The array of positions holds integers. Pass float or double.");
-    }
+    this->Positions.requireFloatingPoint();
     if (excluded)
     {
       this->Excluded.emplace(excluded, "excluded samples");
       this->Excluded->require(this->Positions.count(), 1);
       if (this->Excluded->type() != ISOPOINT_UINT8)
       {
-        throw UsageError("The array of excluded samples is not of bytes. Pass ISOPOINT_UINT8.");
+        throw UsageError(
+          "The array of excluded samples is not of bytes. Pass ISOPOINT_UINT8.", UsageError::Array);
       }
     }
   }

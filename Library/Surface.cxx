@@ -65,8 +65,9 @@ std::vector<T> numbersOf(
   if (reader.type() != typeOf<T>())
   {
     throw isopoint::UsageError(std::string("The array of ") + name + " has the type " +
-                               std::to_string(reader.type()) + ". Pass the type " +
-                               std::to_string(typeOf<T>()) + " of isopoint_type.");
+                                 std::to_string(reader.type()) + ". Pass the type " +
+                                 std::to_string(typeOf<T>()) + " of isopoint_type.",
+      isopoint::UsageError::Array);
   }
   std::vector<T> numbers;
   numbers.reserve(components * count);
@@ -93,7 +94,7 @@ void requireMemory(const void* result, std::size_t tuples)
   if (!result && tuples > 0)
   {
     throw isopoint::UsageError(
-      "The place for the result is null. Pass memory for " + std::to_string(tuples) + " tuples.");
+      "The result is null. Pass memory for " + std::to_string(tuples) + " tuples.");
   }
 }
 
@@ -248,7 +249,8 @@ void isopoint_surface::makeSplatMesh(double scale)
   if ((this->SplatAxes.empty() || this->Normals.empty()) && this->pointCount() > 0)
   {
     throw isopoint::UsageError("The surface has no splats. Extract points with compute_splats and"
-                               " compute_normals.");
+                               " compute_normals.",
+      isopoint::UsageError::Order);
   }
   const bool areFloat = this->hasFloatPoints();
   const double error = isopoint::positionErrorOf(areFloat);
@@ -316,16 +318,13 @@ void isopoint_surface::averageAtSplatVertices(const isopoint_array* ofPoints, vo
 {
   if (!this->HasSplatMesh)
   {
-    throw isopoint::UsageError("There is no splat mesh. Call isopoint_make_splat_mesh() first.");
+    throw isopoint::UsageError("There is no splat mesh. Call isopoint_make_splat_mesh() first.",
+      isopoint::UsageError::Order);
   }
   const isopoint::ArrayReader reader(ofPoints, "the points");
   reader.require(this->pointCount(), reader.components());
   requireMemory(result, this->Splats.mesh.vertices.size());
-  if (!isopoint::isFloatingPoint(reader.type()))
-  {
-    throw isopoint::UsageError("The array of the points holds integers, which have no mean. Pass"
-                               " float or double.");
-  }
+  reader.requireFloatingPoint();
   const auto average = [&](auto type)
   {
     using T = decltype(type);

@@ -30,6 +30,11 @@
  * Errors: functions that can fail return an isopoint_status, and isopoint_get_error() returns the
  * cause and the remedy. Output pointers are written only on success. No function ends the program,
  * not even if memory is exhausted.
+ *
+ * Versions: a program runs with each library 1.x that has the functions it calls, whichever version
+ * 1.x of this header it was compiled with. Names, numbers and parameters stay. Later versions may
+ * add functions, numbers, and members at the end of isopoint_options and isopoint_probe_options,
+ * whose default is 0. A library refuses an option that it does not know unless it is 0.
  */
 #ifndef isopoint_h
 #define isopoint_h
@@ -65,13 +70,18 @@ typedef struct isopoint_extractor isopoint_extractor;
 /* The result of an extraction. Owns its arrays. */
 typedef struct isopoint_surface isopoint_surface;
 
+/* Why a call failed. */
 typedef enum isopoint_status
 {
   ISOPOINT_OK = 0,
-  ISOPOINT_INVALID_ARGUMENT = 1, /* an array, an option or an isovalue cannot be used */
+  ISOPOINT_INVALID_ARGUMENT = 1, /* such as a null pointer, an isovalue, or too many samples */
   ISOPOINT_OUT_OF_MEMORY = 2,
-  ISOPOINT_CANCELED = 3, /* by the callback */
-  ISOPOINT_INTERNAL_ERROR = 4
+  ISOPOINT_CANCELED = 3,       /* by the callback */
+  ISOPOINT_INTERNAL_ERROR = 4, /* a defect of the library */
+  ISOPOINT_INVALID_ARRAY = 5,  /* the type, size or memory of an isopoint_array */
+  ISOPOINT_INVALID_OPTION = 6, /* unknown, out of range, or not together with another one */
+  ISOPOINT_INVALID_ORDER = 7,  /* another call has to come first */
+  ISOPOINT_FORKED = 8          /* this process was forked during a call */
 } isopoint_status;
 
 /* The types of numbers in arrays. */
@@ -127,8 +137,8 @@ enum
   ISOPOINT_PRECISION_INPUT = 2 /* as the samples' positions */
 };
 
-/* What to extract. isopoint_initialize_options() sets `size` and all defaults. Later versions may
- * append options but accept this size. 0 is off, 1 is on. docs/properties.md has all details. */
+/* What to extract. isopoint_initialize_options() sets `size` and all defaults. 0 is off, 1 is on.
+ * docs/properties.md has all details. */
 typedef struct isopoint_options
 {
   uint64_t size;                     /* of this struct, in bytes */
@@ -242,8 +252,7 @@ enum
   ISOPOINT_OUTSIDE_EXTRAPOLATE = 2 /* what the method gives: no place counts as outside */
 };
 
-/* How to probe places. isopoint_initialize_probe_options() sets `size` and all defaults. Later
- * versions may append options but accept this size. */
+/* How to probe places. isopoint_initialize_probe_options() sets `size` and all defaults. */
 typedef struct isopoint_probe_options
 {
   uint64_t size;         /* of this struct, in bytes */
@@ -371,12 +380,30 @@ ISOPOINT_API isopoint_status isopoint_set_surface_threads(
 ISOPOINT_API isopoint_status isopoint_set_surface_callbacks(isopoint_surface* surface,
   void (*progress)(void* user, double fraction), int (*cancels)(void* user), void* user);
 
+/* What a message is about. */
+typedef enum isopoint_message_code
+{
+  ISOPOINT_SKIPPED_SAMPLES = 1,    /* some are not finite; not a warning */
+  ISOPOINT_NO_SAMPLES = 2,         /* all are skipped */
+  ISOPOINT_CONSTANT_VALUES = 3,    /* no surface: all values are the same */
+  ISOPOINT_ISOVALUE_OUTSIDE = 4,   /* no surface: the isovalue is outside the range of the values */
+  ISOPOINT_TOO_FEW_SAMPLES = 5,    /* no surface: there are fewer than four */
+  ISOPOINT_ALL_IN_GAPS = 6,        /* no surface: all of it is in gaps between samples */
+  ISOPOINT_NO_CROSSING = 7,        /* no surface for another reason, such as samples in one plane */
+  ISOPOINT_POINTS_WITHOUT_FIT = 8, /* no fit moved most points */
+  ISOPOINT_SPLATS_APART = 9,       /* many splats do not meet */
+  ISOPOINT_BEYOND_FLOAT = 10       /* float cannot hold positions or splats */
+} isopoint_message_code;
+
 /* A message for the user about a result, such as skipped samples or an isovalue without a surface:
  * a sentence, and the remedy. Null if there is no message of this index.
  * @param index from 0
  * @param is_warning null, or receives 1 if the result is not what was requested, otherwise 0 */
 ISOPOINT_API const char* isopoint_get_message(
   const isopoint_surface* surface, int64_t index, int32_t* is_warning);
+
+/* The isopoint_message_code of this index, or 0 if there is none. */
+ISOPOINT_API int32_t isopoint_get_message_code(const isopoint_surface* surface, int64_t index);
 
 /* A key of the cause of the message of this index, or null if there is none. The key stays the same
  * in later extractions while the cause lasts, even if figures in the message change: programs that

@@ -29,7 +29,8 @@ OUTSIDE_NUMBER, OUTSIDE_NEAREST, OUTSIDE_EXTRAPOLATE = range(3)
 PLACE_OUTSIDE, PLACE_FLAT = 1, 2
 
 # isopoint_status
-OK, INVALID_ARGUMENT, OUT_OF_MEMORY, CANCELED, INTERNAL_ERROR = range(5)
+(OK, INVALID_ARGUMENT, OUT_OF_MEMORY, CANCELED, INTERNAL_ERROR, INVALID_ARRAY, INVALID_OPTION, INVALID_ORDER,
+ FORKED) = range(9)
 
 
 class Array(ctypes.Structure):
@@ -332,8 +333,8 @@ def run_with(callbacks: Callbacks, handle: Handle, function: Any, *arguments: An
 
 def _check(status: int) -> None:
     if status != OK:
-        kinds = {INVALID_ARGUMENT: ValueError, OUT_OF_MEMORY: MemoryError, CANCELED: InterruptedError}
-        raise kinds.get(status, RuntimeError)(_get_error().decode())
+        kinds = {OUT_OF_MEMORY: MemoryError, CANCELED: InterruptedError, INTERNAL_ERROR: RuntimeError}
+        raise kinds.get(status, ValueError)(_get_error().decode())
 
 
 def view(surface: Surface, array_id: int) -> np.ndarray:

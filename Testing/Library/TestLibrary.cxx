@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -159,10 +160,11 @@ void expectInFork(const std::function<bool()>& holds)
 }
 #endif
 
-/// Expects an error that names a word.
-void expectInvalid(isopoint_status status, const std::string& word = "")
+/// Expects an error of a kind that names a word.
+void expectInvalid(isopoint_status status, const std::string& word = "",
+  isopoint_status kind = ISOPOINT_INVALID_ARGUMENT)
 {
-  EXPECT_EQ(status, ISOPOINT_INVALID_ARGUMENT) << word;
+  EXPECT_EQ(status, kind) << word;
   EXPECT_STRNE(isopoint_get_error(), "");
   expectContains(isopoint_get_error(), word);
 }
@@ -428,7 +430,9 @@ TEST(Library, ExcludedAndInvalidSamplesTakeNoPart)
     expectContains(message, part);
   }
   EXPECT_EQ(isWarning, 0);
+  EXPECT_EQ(isopoint_get_message_code(surface.get(), 0), ISOPOINT_SKIPPED_SAMPLES);
   EXPECT_EQ(isopoint_get_message(surface.get(), 1, nullptr), nullptr);
+  EXPECT_EQ(isopoint_get_message_code(surface.get(), 1), 0);
 }
 
 TEST(Library, AnEmptySurfaceIsExplained)
@@ -439,15 +443,41 @@ TEST(Library, AnEmptySurfaceIsExplained)
   std::int32_t isWarning = 0;
   expectContains(isopoint_get_message(outside.get(), 0, &isWarning), "9.125");
   EXPECT_EQ(isWarning, 1);
+  EXPECT_EQ(isopoint_get_message_code(outside.get(), 0), ISOPOINT_ISOVALUE_OUTSIDE);
 
   const Cloud cloud(10);
   ASSERT_EQ(cloud.load(extractor.get(), std::vector<std::uint8_t>(10, 1)), ISOPOINT_OK);
   const Surface none = extractor.extract();
   ASSERT_NE(isopoint_get_message(none.get(), 0, nullptr), nullptr);
   expectContains(isopoint_get_message(none.get(), 0, nullptr), "no sample");
+  EXPECT_EQ(isopoint_get_message_code(none.get(), 0), ISOPOINT_NO_SAMPLES);
   const isopoint_array values = cloud.valueArray();
   EXPECT_EQ(isopoint_interpolate(none.get(), &values, nullptr), ISOPOINT_OK);
   isopoint_get_value_range(extractor.get(), nullptr);
+}
+
+TEST(Library, EachReasonOfAnEmptySurfaceHasACode)
+{
+  const auto codeOf =
+    [](const Cloud& cloud, double isovalue, const isopoint_options& options = withTriangles)
+  {
+    const Surface surface = Extractor(cloud).extract({ isovalue }, options);
+    EXPECT_EQ(arrayOf(surface, ISOPOINT_POINTS).count, 0);
+    EXPECT_NE(isopoint_get_message(surface.get(), 0, nullptr), nullptr);
+    return isopoint_get_message_code(surface.get(), 0);
+  };
+  const Cloud few(3);
+  EXPECT_EQ(codeOf(few, (few.values[0] + few.values[1]) / 2.0), ISOPOINT_TOO_FEW_SAMPLES);
+  Cloud cloud;
+  const double greatest = *std::max_element(cloud.values.begin(), cloud.values.end());
+  EXPECT_EQ(codeOf(cloud, greatest), ISOPOINT_ISOVALUE_OUTSIDE);
+  for (std::size_t i = 2; i < cloud.positions.size(); i += 3)
+  {
+    cloud.positions[i] = 0.0;
+  }
+  EXPECT_EQ(codeOf(cloud, 0.7), ISOPOINT_NO_CROSSING);
+  std::fill(cloud.values.begin(), cloud.values.end(), 0.7);
+  EXPECT_EQ(codeOf(cloud, 0.7), ISOPOINT_CONSTANT_VALUES);
 }
 
 TEST(Library, LengthsThatOverflowFloatAreExplained)
@@ -462,6 +492,7 @@ TEST(Library, LengthsThatOverflowFloatAreExplained)
     const Surface surface = Extractor(cloud).extract({ 0.7 }, options);
     EXPECT_GT(arrayOf(surface, ISOPOINT_POINTS).count, 100);
     const char* const message = isopoint_get_message(surface.get(), 0, nullptr);
+    EXPECT_EQ(isopoint_get_message_code(surface.get(), 0), message ? ISOPOINT_BEYOND_FLOAT : 0);
     return std::string(message ? message : "");
   };
   const auto single = optionsWith(
@@ -488,7 +519,8 @@ TEST(Library, InvalidOptionsAreErrors)
   const auto expectInvalidOptions = [&](const auto& change, const std::string& word)
   {
     const isopoint_options options = optionsWith(change);
-    expectInvalid(isopoint_extract(extractor.get(), &isovalue, 1, &options, &surface), word);
+    expectInvalid(isopoint_extract(extractor.get(), &isovalue, 1, &options, &surface), word,
+      ISOPOINT_INVALID_OPTION);
     EXPECT_EQ(surface, nullptr);
   };
   expectInvalidOptions([](auto& o) { o.angle = 200.0; }, "angle is 200");
@@ -504,7 +536,7 @@ TEST(Library, InvalidOptionsAreErrors)
     "minimum_piece_size is 1.5");
   constexpr std::uint64_t own = sizeof(isopoint_options);
   for (const std::uint64_t size :
-    std::array<std::uint64_t, 9>{ 0, 7, 8, 9, 40, own - 8, own - 1, own + 1, 1000 })
+    std::array<std::uint64_t, 9>{ 0, 7, 8, 9, 40, own - 8, own - 1, own + 1, ~std::uint64_t{ 0 } })
   {
     expectInvalidOptions([size](auto& o) { o.size = size; }, "isopoint_initialize_options()");
   }
@@ -516,6 +548,13 @@ TEST(Library, InvalidOptionsAreErrors)
     expectInvalidOptions([value](auto& o) { o.regularize = value; }, word);
     expectInvalidOptions([value](auto& o) { o.keep_hull_slivers = value; }, word);
   }
+  expectInvalidOptions(
+    [](auto& o)
+    {
+      o.triangles = o.capping = 1;
+      o.projection = ISOPOINT_PROJECTION_CREASE;
+    },
+    "capping has no creases");
   // No more is written than the caller has.
   std::array<unsigned char, sizeof(isopoint_options)> bytes;
   bytes.fill(0xff);
@@ -523,6 +562,28 @@ TEST(Library, InvalidOptionsAreErrors)
     reinterpret_cast<isopoint_options*>(bytes.data()), offsetof(isopoint_options, angle));
   EXPECT_EQ(bytes[offsetof(isopoint_options, angle)], 0xff);
   EXPECT_EQ(bytes[offsetof(isopoint_options, angle) - 1], 0);
+}
+
+TEST(Library, OptionsOfLaterVersionsAreTakenUnlessTheyAreSet)
+{
+  struct Later
+  {
+    isopoint_options known;
+    std::array<double, 2> added;
+  } later;
+  std::memset(&later, 0xff, sizeof(later));
+  isopoint_initialize_options(&later.known, sizeof(later));
+  EXPECT_EQ(later.known.size, sizeof(later));
+  EXPECT_EQ(later.added[1], 0.0);
+  later.known.triangles = 1;
+  const Extractor extractor((Cloud()));
+  EXPECT_EQ(bytesOf(extractor.extract({ 0.7 }, later.known)),
+    bytesOf(extractor.extract({ 0.7 }, withTriangles)));
+  later.added[1] = 1.0;
+  const double isovalue = 0.7;
+  isopoint_surface* surface = nullptr;
+  expectInvalid(isopoint_extract(extractor.get(), &isovalue, 1, &later.known, &surface),
+    "does not know", ISOPOINT_INVALID_OPTION);
 }
 
 TEST(Library, InvalidCallsAreErrors)
@@ -534,7 +595,7 @@ TEST(Library, InvalidCallsAreErrors)
   const double invalid = std::nan("");
   const auto extract = [&](const double* value)
   { return isopoint_extract(extractor.get(), value, 1, nullptr, &surface); };
-  expectInvalid(extract(&isovalue), "isopoint_set_samples()");
+  expectInvalid(extract(&isovalue), "isopoint_set_samples()", ISOPOINT_INVALID_ORDER);
   ASSERT_EQ(cloud.load(extractor.get()), ISOPOINT_OK);
   expectInvalid(extract(&invalid), "not a number");
   expectInvalid(extract(nullptr));
@@ -549,13 +610,16 @@ TEST(Library, InvalidCallsAreErrors)
   expectInvalid(isopoint_get_array(made.get(), 99, &array));
   expectInvalid(isopoint_make_splat_mesh(made.get(), 0.0));
   const Surface triangles = extractor.extract({ 0.7 }, withTriangles);
-  expectInvalid(isopoint_make_splat_mesh(triangles.get(), 1.0), "no splats");
+  expectInvalid(
+    isopoint_make_splat_mesh(triangles.get(), 1.0), "no splats", ISOPOINT_INVALID_ORDER);
   const Surface plain =
     extractor.extract({ 0.7 }, optionsWith([](auto& options) { options.compute_normals = 0; }));
-  expectInvalid(isopoint_make_splat_mesh(plain.get(), 1.0), "compute_normals");
+  expectInvalid(
+    isopoint_make_splat_mesh(plain.get(), 1.0), "compute_normals", ISOPOINT_INVALID_ORDER);
   const isopoint_array few{ cloud.values.data(), ISOPOINT_DOUBLE, 1, 7, 0, 0 };
   std::vector<double> result(100000);
-  expectInvalid(isopoint_interpolate(made.get(), &few, result.data()), "5000");
+  expectInvalid(
+    isopoint_interpolate(made.get(), &few, result.data()), "5000", ISOPOINT_INVALID_ARRAY);
 }
 
 TEST(Library, InvalidArraysAreErrorsAndLeaveNoSamples)
@@ -576,11 +640,14 @@ TEST(Library, InvalidArraysAreErrorsAndLeaveNoSamples)
     const Extractor extractor(cloud);
     isopoint_array positions = cloud.positionArray();
     isopoint_array values = cloud.valueArray();
-    expectInvalid(isopoint_set_samples(extractor.get(), nullptr, &values, nullptr));
-    expectInvalid(isopoint_set_samples(extractor.get(), &positions, &values, &values));
+    expectInvalid(isopoint_set_samples(extractor.get(), nullptr, &values, nullptr), "null",
+      ISOPOINT_INVALID_ARRAY);
+    expectInvalid(isopoint_set_samples(extractor.get(), &positions, &values, &values), "UINT8",
+      ISOPOINT_INVALID_ARRAY);
     ASSERT_EQ(cloud.load(extractor.get()), ISOPOINT_OK);
     change(positions, values);
-    expectInvalid(isopoint_set_samples(extractor.get(), &positions, &values, nullptr));
+    expectInvalid(isopoint_set_samples(extractor.get(), &positions, &values, nullptr), "",
+      ISOPOINT_INVALID_ARRAY);
     EXPECT_EQ(isopoint_get_sample_count(extractor.get()), 0);
   }
 }
@@ -863,7 +930,7 @@ TEST(Library, CallsFailInProcessesForkedDuringACall)
         []()
         {
           const Extractor other;
-          return other.get() && Cloud().load(other.get()) == ISOPOINT_INVALID_ARGUMENT &&
+          return other.get() && Cloud().load(other.get()) == ISOPOINT_FORKED &&
                  std::string(isopoint_get_error()).find("forked") != std::string::npos;
         });
     }
@@ -911,7 +978,7 @@ TEST(Library, ABugLeavesNoSamplesAndItsWholeDescription)
   EXPECT_EQ(extract(), ISOPOINT_INTERNAL_ERROR);
   expectContains(isopoint_get_error(), std::string(5000, '?') + "). Report this as a bug");
   EXPECT_EQ(isopoint_get_sample_count(extractor.get()), 0);
-  expectInvalid(extract(), "isopoint_set_samples()");
+  expectInvalid(extract(), "isopoint_set_samples()", ISOPOINT_INVALID_ORDER);
 }
 
 namespace
@@ -986,7 +1053,8 @@ TEST(Library, ArraysAreInterpolatedAtPlacesAndAgainFromNeighborhoods)
     isopoint_weights weights;
     if (method == ISOPOINT_METHOD_BLEND)
     {
-      expectInvalid(isopoint_get_weights(neighborhoods, &weights), "not linear");
+      expectInvalid(
+        isopoint_get_weights(neighborhoods, &weights), "not linear", ISOPOINT_INVALID_OPTION);
     }
     else
     {
@@ -1101,28 +1169,30 @@ TEST(Library, InvalidProbesAreErrors)
                        const isopoint_probed& to, const isopoint_probe_options& options)
   { return isopoint_probe(extractor.get(), &where, &of, 1, &options, &to, nullptr); };
   const isopoint_probe_options usual = probeOptions(ISOPOINT_METHOD_BLEND);
-  expectInvalid(probe(array, places, result, usual), "no samples");
+  expectInvalid(probe(array, places, result, usual), "no samples", ISOPOINT_INVALID_ORDER);
   loadPositions(extractor, cloud);
   EXPECT_EQ(probe(array, places, result, usual), ISOPOINT_OK);
-  expectInvalid(probe(places, array, result, usual), "places");
+  expectInvalid(probe(places, array, result, usual), "places", ISOPOINT_INVALID_ARRAY);
   isopoint_array few = array;
   few.count = 99;
-  expectInvalid(probe(few, places, result, usual), "Pass 100 of 1");
+  expectInvalid(probe(few, places, result, usual), "Pass 100 of 1", ISOPOINT_INVALID_ARRAY);
   expectInvalid(probe(array, places, { nullptr, nullptr }, usual), "memory");
-  expectInvalid(probe(array, places, result, probeOptions(5)), "method");
-  expectInvalid(probe(array, places, result, probeOptions(0, 3)), "outside");
+  expectInvalid(probe(array, places, result, probeOptions(5)), "method", ISOPOINT_INVALID_OPTION);
+  expectInvalid(
+    probe(array, places, result, probeOptions(0, 3)), "outside", ISOPOINT_INVALID_OPTION);
   expectInvalid(
     probe(array, places, { numbers.data(), numbers.data() }, probeOptions(ISOPOINT_METHOD_NEAREST)),
-    "NEAREST");
+    "NEAREST", ISOPOINT_INVALID_OPTION);
   isopoint_probe_options unset = usual;
   unset.size = 1;
-  expectInvalid(probe(array, places, result, unset), "isopoint_initialize_probe_options");
+  expectInvalid(probe(array, places, result, unset), "isopoint_initialize_probe_options",
+    ISOPOINT_INVALID_OPTION);
   expectInvalid(
     isopoint_probe(extractor.get(), &places, nullptr, 1, nullptr, &result, nullptr), "arrays");
   isopoint_surface* surface = nullptr;
   const double isovalue = 0.5;
-  expectInvalid(
-    isopoint_extract(extractor.get(), &isovalue, 1, nullptr, &surface), "have no values");
+  expectInvalid(isopoint_extract(extractor.get(), &isovalue, 1, nullptr, &surface),
+    "have no values", ISOPOINT_INVALID_ORDER);
   Observed observed;
   observed.cancelAfter = 0;
   isopoint_set_callbacks(extractor.get(), observe, isCanceled, &observed);
@@ -1189,10 +1259,10 @@ TEST(Library, KeptSplatsYieldTheSameMesh)
   EXPECT_EQ(isopoint_average_at_splat_vertices(again.get(), &normals, means.data()), ISOPOINT_OK);
 
   isopoint_surface* created = nullptr;
-  expectInvalid(kept.create(&created, 1), "normals");
+  expectInvalid(kept.create(&created, 1), "normals", ISOPOINT_INVALID_ARRAY);
   expectInvalid(kept.create(nullptr));
   kept.axes.resize(kept.axes.size() - 3);
-  expectInvalid(kept.create(&created), "splat axes");
+  expectInvalid(kept.create(&created), "splat axes", ISOPOINT_INVALID_ARRAY);
 }
 
 TEST(Library, KeptSplatsThatAreNotFiniteAreNotDrawn)
