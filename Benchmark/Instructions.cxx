@@ -103,7 +103,7 @@ public:
     const isopoint_array places = arrayOf(where.positions, 3);
     const isopoint_array values = arrayOf(this->All.values, 1);
     this->Values.resize(where.size());
-    const isopoint_probed probed{ this->Values.data(), nullptr };
+    const isopoint_probe_result probed{ this->Values.data(), nullptr };
     check(isopoint_probe(this->Extractor, &places, &values, 1, nullptr, &probed, nullptr));
   }
 
@@ -112,7 +112,8 @@ public:
   std::uint64_t hash() const
   {
     std::uint64_t hash = hashOfBytes(this->Values.data(), sizeof(double) * this->Values.size());
-    for (std::int32_t id = ISOPOINT_POINTS; this->Surface && id <= ISOPOINT_SPLAT_TRIANGLES; ++id)
+    for (std::int32_t id = ISOPOINT_ARRAY_POINTS;
+         this->Surface && id <= ISOPOINT_ARRAY_SPLAT_TRIANGLES; ++id)
     {
       isopoint_array array{};
       check(isopoint_get_array(this->Surface, id, &array));

@@ -100,21 +100,12 @@ std::vector<double> sortedIsovalues(const std::vector<double>& isovalues)
 
 Options effectiveOptions(const Options& options)
 {
-  const Options defaults;
-  Options effective = options;
-  if (options.triangles)
-  {
-    effective.angle = defaults.angle;
-    effective.numberOfNeighbors = defaults.numberOfNeighbors;
-    effective.computeSplats = false;
-  }
-  else
-  {
-    effective.regularize = defaults.regularize;
-    effective.keepHullSlivers = defaults.keepHullSlivers;
-    effective.capping = defaults.capping;
-    effective.minimumPieceSize = defaults.minimumPieceSize;
-  }
+  Options effective;
+  effective.triangles = options.triangles;
+  effective.keepTetrahedra = options.keepTetrahedra;
+  effective.computeSplats = !options.triangles;
+  forEachOption(
+    options, [&](const auto& option) { effective.*option.value = options.*option.value; });
   return effective;
 }
 

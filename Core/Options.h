@@ -4,6 +4,7 @@
 #include "Core/ExtractionRequest.h"
 
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace isopoint
@@ -57,40 +58,61 @@ struct Options
 template <class T>
 struct Option
 {
+  enum Surfaces
+  {
+    Any,
+    Points,
+    Triangles
+  };
+
   const char* name;
   T Options::*value;
   T least;
   T greatest;
+  Surfaces of = Any; // those that the option has an effect on
+
+  constexpr bool concerns(bool triangles) const
+  {
+    return this->of == Any || (this->of == Triangles) == triangles;
+  }
 };
 
 namespace option
 {
 
-inline constexpr Option<int> projection{ "Projection", &Options::projection, 0,
+using Number = Option<double>;
+using Choice = Option<int>;
+using Switch = Option<bool>;
+
+inline constexpr Choice projection{ "Projection", &Options::projection, 0,
   static_cast<int>(FitOrder::Crease) };
-inline constexpr Option<int> normalMethod{ "NormalMethod", &Options::normalMethod,
+inline constexpr Choice normalMethod{ "NormalMethod", &Options::normalMethod,
   static_cast<int>(NormalMethod::Automatic), static_cast<int>(NormalMethod::Planes) };
-inline constexpr Option<bool> dropGaps{ "DropGaps", &Options::dropGaps, false, true };
-inline constexpr Option<bool> computeNormals{ "ComputeNormals", &Options::computeNormals, false,
+inline constexpr Switch dropGaps{ "DropGaps", &Options::dropGaps, false, true };
+inline constexpr Switch computeNormals{ "ComputeNormals", &Options::computeNormals, false, true };
+inline constexpr Switch computeGradients{ "ComputeGradients", &Options::computeGradients, false,
   true };
-inline constexpr Option<bool> computeGradients{ "ComputeGradients", &Options::computeGradients,
-  false, true };
-inline constexpr Option<bool> computeProjectionOrders{ "ComputeProjectionOrders",
+inline constexpr Switch computeProjectionOrders{ "ComputeProjectionOrders",
   &Options::computeProjectionOrders, false, true };
-inline constexpr Option<int> outputPointsPrecision{ "OutputPointsPrecision",
+inline constexpr Choice outputPointsPrecision{ "OutputPointsPrecision",
   &Options::outputPointsPrecision, static_cast<int>(Precision::Single),
   static_cast<int>(Precision::Default) };
-inline constexpr Option<double> angle{ "Angle", &Options::angle, 0.0, 180.0 }; // degrees
-inline constexpr Option<int> numberOfNeighbors{ "NumberOfNeighbors", &Options::numberOfNeighbors, 3,
-  1000 };
-inline constexpr Option<bool> computeSplats{ "ComputeSplats", &Options::computeSplats, false,
-  true };
-inline constexpr Option<bool> regularize{ "Regularize", &Options::regularize, false, true };
-inline constexpr Option<bool> keepHullSlivers{ "KeepHullSlivers", &Options::keepHullSlivers, false,
-  true };
-inline constexpr Option<bool> capping{ "Capping", &Options::capping, false, true };
-inline constexpr Option<double> minimumPieceSize{ "MinimumPieceSize", &Options::minimumPieceSize,
-  0.0, 1.0 };
+inline constexpr Number angle{ "Angle", &Options::angle, 0.0, 180.0, Number::Points }; // degrees
+inline constexpr Choice numberOfNeighbors{ "NumberOfNeighbors", &Options::numberOfNeighbors, 3,
+  1000, Choice::Points };
+inline constexpr Switch computeSplats{ "ComputeSplats", &Options::computeSplats, false, true,
+  Switch::Points };
+inline constexpr Switch regularize{ "Regularize", &Options::regularize, false, true,
+  Switch::Triangles };
+inline constexpr Switch keepHullSlivers{ "KeepHullSlivers", &Options::keepHullSlivers, false, true,
+  Switch::Triangles };
+inline constexpr Switch capping{ "Capping", &Options::capping, false, true, Switch::Triangles };
+inline constexpr Number minimumPieceSize{ "MinimumPieceSize", &Options::minimumPieceSize, 0.0, 1.0,
+  Number::Triangles };
+
+inline constexpr auto all = std::make_tuple(projection, normalMethod, dropGaps, computeNormals,
+  computeGradients, computeProjectionOrders, outputPointsPrecision, angle, numberOfNeighbors,
+  computeSplats, regularize, keepHullSlivers, capping, minimumPieceSize);
 
 } // namespace option
 
@@ -98,26 +120,14 @@ inline constexpr Option<double> minimumPieceSize{ "MinimumPieceSize", &Options::
 template <class Visitor>
 void forEachOption(const Options& options, const Visitor& visit)
 {
-  visit(option::projection);
-  visit(option::normalMethod);
-  visit(option::dropGaps);
-  visit(option::computeNormals);
-  visit(option::computeGradients);
-  visit(option::computeProjectionOrders);
-  visit(option::outputPointsPrecision);
-  if (options.triangles)
+  const auto visitOne = [&](const auto& option)
   {
-    visit(option::regularize);
-    visit(option::keepHullSlivers);
-    visit(option::capping);
-    visit(option::minimumPieceSize);
-  }
-  else
-  {
-    visit(option::angle);
-    visit(option::numberOfNeighbors);
-    visit(option::computeSplats);
-  }
+    if (option.concerns(options.triangles))
+    {
+      visit(option);
+    }
+  };
+  std::apply([&](const auto&... each) { (visitOne(each), ...); }, option::all);
 }
 
 /// Translates an option's name above to its name in the program that uses the core.

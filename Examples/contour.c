@@ -115,9 +115,9 @@ int main(int argc, char** argv)
   extractor = isopoint_create_extractor();
   if (!extractor || isopoint_set_samples(extractor, &positions, &values, NULL) ||
       isopoint_extract(extractor, &isovalue, 1, &options, &surface) ||
-      isopoint_get_array(surface, ISOPOINT_POINTS, &points) ||
-      isopoint_get_array(surface, ISOPOINT_NORMALS, &normals) ||
-      isopoint_get_array(surface, ISOPOINT_TRIANGLES, &triangles))
+      isopoint_get_array(surface, ISOPOINT_ARRAY_POINTS, &points) ||
+      isopoint_get_array(surface, ISOPOINT_ARRAY_NORMALS, &normals) ||
+      isopoint_get_array(surface, ISOPOINT_ARRAY_TRIANGLES, &triangles))
   {
     fail(isopoint_get_error());
   }

@@ -133,6 +133,12 @@ isopoint_status runOn(const void* object, const char* name, const Call& call)
     });
 }
 
+// Programs may leave padding unset, and later versions could put members there.
+static_assert(
+  sizeof(isopoint_options) == offsetof(isopoint_options, minimum_piece_size) + sizeof(double));
+static_assert(sizeof(isopoint_probe_options) ==
+              offsetof(isopoint_probe_options, outside_number) + sizeof(double));
+
 /// Converts the name of an option, such as DropGaps, to that of its member, drop_gaps.
 std::string memberName(const char* name)
 {
@@ -317,6 +323,31 @@ void requireSamples(const isopoint_extractor& extractor)
   }
 }
 
+/// Runs a call on the samples of an extractor. It loses them if their tree may be invalid.
+template <class Call>
+isopoint_status runOnSamples(isopoint_extractor* extractor, const Call& call)
+{
+  const isopoint_status status = runOn(extractor, "extractor",
+    [&]()
+    {
+      requireSamples(*extractor);
+      call();
+    });
+  if (status == ISOPOINT_INTERNAL_ERROR)
+  {
+    extractor->clear();
+  }
+  return status;
+}
+
+void setThreads(isopoint::Execution& execution, std::int32_t threads)
+{
+  checkThreads(threads);
+  const isopoint::Execution chosen = executionOnThreads(threads);
+  execution.parallelFor = chosen.parallelFor;
+  execution.threads = chosen.threads;
+}
+
 } // namespace
 
 void isopoint_initialize_options(isopoint_options* options, size_t size)
@@ -332,6 +363,11 @@ void isopoint_initialize_options(isopoint_options* options, size_t size)
 const char* isopoint_version(void)
 {
   return ISOPOINT_VERSION;
+}
+
+int32_t isopoint_version_number(void)
+{
+  return ISOPOINT_VERSION_NUMBER;
 }
 
 const char* isopoint_get_error(void)
@@ -375,11 +411,13 @@ isopoint_status isopoint_set_name(isopoint_extractor* extractor, const char* nam
 isopoint_status isopoint_set_samples(isopoint_extractor* extractor, const isopoint_array* positions,
   const isopoint_array* values, const isopoint_array* excluded)
 {
+  bool isReplacing = false;
   const isopoint_status status = runOn(extractor, "extractor",
     [&]()
     {
       const isopoint::SampleReader read(positions, values, excluded);
       const isopoint::SampleTypes types = read.types();
+      isReplacing = true;
       isopoint::loadOrReplace(
         extractor->makeExecution(), nullptr, extractor->Extractor, types, read.count(), read);
       extractor->Types = types;
@@ -387,7 +425,7 @@ isopoint_status isopoint_set_samples(isopoint_extractor* extractor, const isopoi
       extractor->HasSamples = true;
       extractor->HasValues = values != nullptr;
     });
-  if (status != ISOPOINT_OK && extractor)
+  if (status != ISOPOINT_OK && isReplacing)
   {
     extractor->clear();
   }
@@ -429,17 +467,16 @@ void isopoint_initialize_probe_options(isopoint_probe_options* options, size_t s
 
 isopoint_status isopoint_probe(isopoint_extractor* extractor, const isopoint_array* places,
   const isopoint_array* arrays, int64_t array_count, const isopoint_probe_options* options,
-  const isopoint_probed* results, uint8_t* kinds)
+  const isopoint_probe_result* results, uint8_t* flags)
 {
-  return runOn(extractor, "extractor",
+  return runOnSamples(extractor,
     [&]()
     {
-      requireSamples(*extractor);
       const std::vector<isopoint::Vector> all = isopoint::placesFrom(places);
       const isopoint::ProbeOptions chosen = isopoint::probeOptionsFrom(options);
-      const auto probed =
-        isopoint::probedArrays(arrays, array_count, results, extractor->Counts.items, chosen);
-      extractor->Extractor.probe(extractor->makeExecution(), all, chosen, probed, kinds);
+      const auto probed = isopoint::probedArrays(
+        arrays, array_count, results, extractor->Counts.items, all.size(), chosen);
+      extractor->Extractor.probe(extractor->makeExecution(), all, chosen, probed, flags);
     });
 }
 
@@ -447,11 +484,10 @@ isopoint_status isopoint_find_neighborhoods(isopoint_extractor* extractor,
   const isopoint_array* places, const isopoint_probe_options* options,
   isopoint_neighborhoods** neighborhoods)
 {
-  return runOn(extractor, "extractor",
+  return runOnSamples(extractor,
     [&]()
     {
-      require(neighborhoods, "place for the neighborhoods");
-      requireSamples(*extractor);
+      require(neighborhoods, "pointer to neighborhoods");
       const isopoint::Execution execution = extractor->makeExecution();
       *neighborhoods = new isopoint_neighborhoods{ execution,
         extractor->Extractor.findNeighborhoods(
@@ -460,19 +496,36 @@ isopoint_status isopoint_find_neighborhoods(isopoint_extractor* extractor,
     });
 }
 
+isopoint_status isopoint_set_neighborhoods_threads(
+  isopoint_neighborhoods* neighborhoods, int32_t threads)
+{
+  return runOn(
+    neighborhoods, "neighborhoods", [&]() { setThreads(neighborhoods->execution, threads); });
+}
+
+isopoint_status isopoint_set_neighborhoods_callbacks(isopoint_neighborhoods* neighborhoods,
+  void (*progress)(void* user, double fraction), int (*cancels)(void* user), void* user)
+{
+  return runOn(neighborhoods, "neighborhoods",
+    [&]() {
+      Callbacks{ progress, cancels, user }.addTo(neighborhoods->execution);
+    });
+}
+
 isopoint_status isopoint_probe_neighborhoods(const isopoint_neighborhoods* neighborhoods,
-  const isopoint_array* arrays, int64_t array_count, const isopoint_probed* results, uint8_t* kinds)
+  const isopoint_array* arrays, int64_t array_count, const isopoint_probe_result* results,
+  uint8_t* flags)
 {
   return runOn(neighborhoods, "neighborhoods",
     [&]()
     {
       const isopoint::Neighborhoods& found = neighborhoods->found;
       isopoint::probeNeighborhoods(neighborhoods->execution, found,
-        isopoint::probedArrays(
-          arrays, array_count, results, neighborhoods->sampleCount, found.options));
-      if (kinds)
+        isopoint::probedArrays(arrays, array_count, results, neighborhoods->sampleCount,
+          found.places.size(), found.options));
+      if (flags)
       {
-        std::copy(found.kinds.begin(), found.kinds.end(), kinds);
+        std::copy(found.kinds.begin(), found.kinds.end(), flags);
       }
     });
 }
@@ -483,7 +536,7 @@ isopoint_status isopoint_get_weights(
   return runOn(neighborhoods, "neighborhoods",
     [&]()
     {
-      require(weights, "place for the weights");
+      require(weights, "pointer to weights");
       *weights = neighborhoods->weights();
     });
 }
@@ -496,17 +549,20 @@ void isopoint_destroy_neighborhoods(isopoint_neighborhoods* neighborhoods)
 isopoint_status isopoint_extract(isopoint_extractor* extractor, const double* isovalues,
   int64_t count, const isopoint_options* options, isopoint_surface** surface)
 {
-  const isopoint_status status = runOn(extractor, "extractor",
+  return runOnSamples(extractor,
     [&]()
     {
-      require(surface, "place for the surface");
+      require(surface, "pointer to the surface");
       constexpr std::int64_t most = 1 << 24;
-      if (count < 0 || count > most || (count > 0 && !isovalues))
+      if (count < 0 || count > most)
       {
-        throw UsageError("There are not " + std::to_string(count) +
-                         " isovalues. Pass as many as their count says, up to 2^24.");
+        throw UsageError("The number of isovalues is " + std::to_string(count) +
+                         ". Pass a number from 0 to 2^24.");
       }
-      requireSamples(*extractor);
+      if (count > 0)
+      {
+        require(isovalues, "pointer to isovalues");
+      }
       if (!extractor->HasValues)
       {
         throw UsageError(
@@ -528,11 +584,6 @@ isopoint_status isopoint_extract(isopoint_extractor* extractor, const double* is
       execution.progress(1.0);
       *surface = made.release();
     });
-  if (status == ISOPOINT_INTERNAL_ERROR)
-  {
-    extractor->clear(); // the tree may be invalid
-  }
-  return status;
 }
 
 void isopoint_destroy_surface(isopoint_surface* surface)
@@ -542,14 +593,7 @@ void isopoint_destroy_surface(isopoint_surface* surface)
 
 isopoint_status isopoint_set_surface_threads(isopoint_surface* surface, int32_t threads)
 {
-  return runOn(surface, "surface",
-    [&]()
-    {
-      checkThreads(threads);
-      const isopoint::Execution chosen = executionOnThreads(threads);
-      surface->execution.parallelFor = chosen.parallelFor;
-      surface->execution.threads = chosen.threads;
-    });
+  return runOn(surface, "surface", [&]() { setThreads(surface->execution, threads); });
 }
 
 isopoint_status isopoint_set_surface_callbacks(isopoint_surface* surface,
@@ -563,6 +607,15 @@ isopoint_status isopoint_set_surface_callbacks(isopoint_surface* surface,
 
 namespace
 {
+
+/// Whether options have the same effect.
+bool areSame(const isopoint::Options& first, const isopoint::Options& second)
+{
+  bool areSame = first.triangles == second.triangles;
+  isopoint::forEachOption(first,
+    [&](const auto& option) { areSame = areSame && first.*option.value == second.*option.value; });
+  return areSame;
+}
 
 /// The message of this index, or null.
 const isopoint::Message* messageAt(const isopoint_surface* surface, std::int64_t index)
@@ -607,7 +660,7 @@ isopoint_status isopoint_join_messages(isopoint_surface* surface, const isopoint
       {
         throw UsageError("The surfaces have different isovalues. Extract them at the same.");
       }
-      if (surface == other || surface->report.areTriangles != other->report.areTriangles ||
+      if (surface == other || !areSame(surface->options, other->options) ||
           surface->report.samples == 0 || other->report.samples == 0)
       {
         throw UsageError("Messages are joined of two surfaces, extracted with the same options.");
@@ -635,7 +688,7 @@ isopoint_status isopoint_get_array(
   return runOn(surface, "surface",
     [&]()
     {
-      require(array, "place for the array");
+      require(array, "pointer to the array");
       *array = surface->array(array_id);
     });
 }
@@ -649,7 +702,7 @@ isopoint_status isopoint_interpolate(
 isopoint_status isopoint_create_surface(const isopoint_array* points, const isopoint_array* normals,
   const isopoint_array* axes, const isopoint_array* polygons, isopoint_surface** surface)
 {
-  return runOn(surface, "place for the surface",
+  return runOn(surface, "pointer to the surface",
     [&]()
     { *surface = new isopoint_surface(executionOnThreads(0), points, normals, axes, polygons); });
 }

@@ -33,8 +33,8 @@ T numberAs(double number)
   return isInside ? static_cast<T>(number) : T{ 0 };
 }
 
-ProbedArray probedArray(const isopoint_array& array, const isopoint_probed& result,
-  std::size_t sampleCount, const ProbeOptions& options);
+ProbedArray probedArray(const isopoint_array& array, const isopoint_probe_result& result,
+  std::size_t sampleCount, std::size_t placeCount, const ProbeOptions& options);
 
 } // namespace
 
@@ -77,7 +77,8 @@ ProbeOptions probeOptionsFrom(const isopoint_probe_options* given)
 }
 
 std::vector<ProbedArray> probedArrays(const isopoint_array* arrays, std::int64_t count,
-  const isopoint_probed* results, std::size_t sampleCount, const ProbeOptions& options)
+  const isopoint_probe_result* results, std::size_t sampleCount, std::size_t placeCount,
+  const ProbeOptions& options)
 {
   if (count < 0 || (count > 0 && !(arrays && results)))
   {
@@ -87,7 +88,7 @@ std::vector<ProbedArray> probedArrays(const isopoint_array* arrays, std::int64_t
   std::vector<ProbedArray> probed;
   for (std::int64_t i = 0; i < count; ++i)
   {
-    probed.push_back(probedArray(arrays[i], results[i], sampleCount, options));
+    probed.push_back(probedArray(arrays[i], results[i], sampleCount, placeCount, options));
   }
   return probed;
 }
@@ -95,12 +96,12 @@ std::vector<ProbedArray> probedArrays(const isopoint_array* arrays, std::int64_t
 namespace
 {
 
-ProbedArray probedArray(const isopoint_array& array, const isopoint_probed& result,
-  std::size_t sampleCount, const ProbeOptions& options)
+ProbedArray probedArray(const isopoint_array& array, const isopoint_probe_result& result,
+  std::size_t sampleCount, std::size_t placeCount, const ProbeOptions& options)
 {
   const ArrayReader reader(&array, "values");
   reader.require(sampleCount, reader.components());
-  if (!result.values)
+  if (!result.values && placeCount > 0)
   {
     throw UsageError("The memory for values is null. Pass memory for one tuple per place.");
   }

@@ -18,7 +18,8 @@ namespace isopoint
 std::vector<Vector> placesFrom(const isopoint_array* places);
 ProbeOptions probeOptionsFrom(const isopoint_probe_options* given);
 std::vector<ProbedArray> probedArrays(const isopoint_array* arrays, std::int64_t count,
-  const isopoint_probed* results, std::size_t sampleCount, const ProbeOptions& options);
+  const isopoint_probe_result* results, std::size_t sampleCount, std::size_t placeCount,
+  const ProbeOptions& options);
 
 } // namespace isopoint
 

@@ -22,14 +22,15 @@ public:
   /// @throws UsageError in such a process
   RunningCall()
   {
+    ++Count; // before the check: a fork may come between both
     if (wasForkedMeanwhile())
     {
+      --Count;
       throw UsageError(
         "This process was forked during a call of another thread: it cannot contour. Fork between"
         " calls, or start processes anew, in Python by the method \"spawn\".",
         UsageError::Fork);
     }
-    ++Count;
   }
 
   ~RunningCall() { --Count; }

@@ -101,9 +101,10 @@ void requireMemory(const void* result, std::size_t tuples)
 } // namespace
 
 isopoint_surface::isopoint_surface(const isopoint::Execution& making,
-  std::vector<isopoint::ExtractedIsosurface> surfaces, const isopoint::Options& options,
+  std::vector<isopoint::ExtractedIsosurface> surfaces, const isopoint::Options& chosen,
   bool areFloatPositions, const isopoint::Report& counts, std::size_t samples)
   : execution(making)
+  , options(chosen)
   , report(counts)
   , SampleCount(samples)
   , Parts(std::move(surfaces))
@@ -174,7 +175,7 @@ std::size_t isopoint_surface::pointCount() const
 
 isopoint_array isopoint_surface::array(std::int32_t id) const
 {
-  const std::array<isopoint_array, ISOPOINT_CAPS + 1> arrays{
+  const std::array<isopoint_array, ISOPOINT_ARRAY_CAPS + 1> arrays{
     asArray(this->Points),
     asArray(this->Isovalues, 1),
     asArray(this->Normals, 3),

@@ -20,10 +20,10 @@ struct isopoint_surface
   using Coordinates = std::variant<std::vector<float>, std::vector<double>>;
 
   /// @param surfaces of all isovalues
-  /// @param options effective options
+  /// @param chosen effective options
   /// @throws std::bad_alloc
   isopoint_surface(const isopoint::Execution& making,
-    std::vector<isopoint::ExtractedIsosurface> surfaces, const isopoint::Options& options,
+    std::vector<isopoint::ExtractedIsosurface> surfaces, const isopoint::Options& chosen,
     bool areFloatPositions, const isopoint::Report& report, std::size_t samples);
 
   /// See isopoint_create_surface(). @throws isopoint::UsageError, std::bad_alloc
@@ -43,6 +43,7 @@ struct isopoint_surface
   void averageAtSplatVertices(const isopoint_array* ofPoints, void* result) const;
 
   isopoint::Execution execution; // of all calls on this surface
+  isopoint::Options options;     // effective ones
   std::vector<isopoint::Message> messages;
   isopoint::Report report;
 

@@ -11,14 +11,13 @@
  *   isopoint_array values = { temperatures, ISOPOINT_FLOAT, 1, count, 0, 0 };
  *   isopoint_surface* surface = NULL;
  *   isopoint_array points;
- *   isopoint_options options;
  *   double isovalue = 273.15;
- *   isopoint_initialize_options(&options, sizeof options);
  *   if (isopoint_set_samples(extractor, &positions, &values, NULL) ||
- *       isopoint_extract(extractor, &isovalue, 1, &options, &surface) ||
- *       isopoint_get_array(surface, ISOPOINT_POINTS, &points))
+ *       isopoint_extract(extractor, &isovalue, 1, NULL, &surface) ||
+ *       isopoint_get_array(surface, ISOPOINT_ARRAY_POINTS, &points))
  *     fprintf(stderr, "%s\n", isopoint_get_error());
- *   ...
+ *   else
+ *     write_points(points.data, points.count);
  *   isopoint_destroy_surface(surface);
  *   isopoint_destroy_extractor(extractor);
  *
@@ -28,13 +27,14 @@
  * threads uses one. In a process forked during a call, all calls fail.
  *
  * Errors: functions that can fail return an isopoint_status, and isopoint_get_error() returns the
- * cause and the remedy. Output pointers are written only on success. No function ends the program,
- * not even if memory is exhausted.
+ * cause and the remedy. Pointers to objects are written only on success; memory for numbers may be
+ * partly written after a failure. No function ends the program, not even if memory is exhausted.
  *
  * Versions: a program runs with each library 1.x that has the functions it calls, whichever version
- * 1.x of this header it was compiled with. Names, numbers and parameters stay. Later versions may
- * add functions, numbers, and members at the end of isopoint_options and isopoint_probe_options,
- * whose default is 0. A library refuses an option that it does not know unless it is 0.
+ * 1.x of this header it was compiled with. Names, numbers, parameters and structures stay, but later
+ * versions may append members to isopoint_options and isopoint_probe_options, with the default 0, and
+ * add functions, statuses, message codes and arrays: treat a status that you do not know as an error.
+ * A library refuses an option that it does not know unless it is 0.
  */
 #ifndef isopoint_h
 #define isopoint_h
@@ -43,6 +43,7 @@
 #include <stdint.h>
 
 #define ISOPOINT_VERSION "1.0.0"
+#define ISOPOINT_VERSION_NUMBER 10000 /* 10000 major + 100 minor + patch */
 
 #if defined(ISOPOINT_STATIC)
 #define ISOPOINT_API
@@ -114,28 +115,28 @@ typedef struct isopoint_array
 /* -------------------------------------------------------------------------------- */
 /* Options */
 
-enum
+typedef enum isopoint_projection
 {
   ISOPOINT_PROJECTION_NONE = 0,      /* none: points stay where linear interpolation puts them */
   ISOPOINT_PROJECTION_LINEAR = 1,    /* an affine function */
   ISOPOINT_PROJECTION_QUADRATIC = 2, /* a polynomial of degree two */
   ISOPOINT_PROJECTION_CUBIC = 3,     /* of degree two or three */
   ISOPOINT_PROJECTION_CREASE = 4     /* the same, or several polynomials that meet at a crease */
-};
+} isopoint_projection;
 
-enum
+typedef enum isopoint_normal_method
 {
   ISOPOINT_NORMALS_AUTOMATIC = -1, /* FROM_FIELD if a fit is needed anyway, otherwise FROM_PLANES */
   ISOPOINT_NORMALS_FROM_FIELD = 0,      /* gradients of the fits */
   ISOPOINT_NORMALS_FROM_PLANES = 1      /* planes through the nearest points, or triangles */
-};
+} isopoint_normal_method;
 
-enum
+typedef enum isopoint_precision
 {
   ISOPOINT_PRECISION_SINGLE = 0,
   ISOPOINT_PRECISION_DOUBLE = 1,
   ISOPOINT_PRECISION_INPUT = 2 /* as the samples' positions */
-};
+} isopoint_precision;
 
 /* What to extract. isopoint_initialize_options() sets `size` and all defaults. 0 is off, 1 is on.
  * docs/properties.md has all details. */
@@ -143,13 +144,13 @@ typedef struct isopoint_options
 {
   uint64_t size;                     /* of this struct, in bytes */
   int32_t triangles;                 /* 0: points; 1: triangles. Default: 0 */
-  int32_t projection;                /* how points move to the zero of a fit. Default: CUBIC */
-  int32_t normal_method;             /* source of normals. Default: AUTOMATIC */
+  int32_t projection;                /* an isopoint_projection: how points move. Default: CUBIC */
+  int32_t normal_method;             /* an isopoint_normal_method. Default: AUTOMATIC */
   int32_t drop_gaps;                 /* whether the surface ends at gaps. Default: 1 */
   int32_t compute_normals;           /* Default: 1 */
   int32_t compute_gradients;         /* Default: 0 */
   int32_t compute_projection_orders; /* Default: 0 */
-  int32_t output_points_precision;   /* Default: INPUT */
+  int32_t output_points_precision;   /* an isopoint_precision. Default: INPUT */
   /* Points only: */
   int32_t number_of_neighbors; /* points used to fit a plane, 3 to 1000. Default: 12 */
   int32_t compute_splats;      /* whether to compute splats of points. Default: 1 */
@@ -160,16 +161,15 @@ typedef struct isopoint_options
   /* Triangles only: whether to merge vertices and flip edges, which gives fewer and well-shaped
    * triangles. 0: the exact isosurface of the Delaunay tetrahedralization. */
   int32_t regularize; /* Default: 1 */
-  /* Triangles only, for slices: whether gaps begin only where edges span a void, and not at flat
-   * tetrahedra on the convex hull, and vertices of the rim stay when others merge, so that the rim is
-   * that of the body. */
+  /* Triangles only, for slices. 1: gaps begin only at edges that span a void, not at flat tetrahedra
+   * on the convex hull, and vertices of the rim do not merge: the slice ends where the body ends. */
   int32_t keep_hull_slivers; /* Default: 0 */
   /* Triangles only: whether the surface is that of the body of the samples at or above the isovalue,
    * closed by caps where the samples end. Not with projection CREASE. */
   int32_t capping; /* Default: 0 */
   /* Triangles only: connected components with less than this share of the area of an isovalue's
-   * largest one are left out, such as droplets. With capping, bubbles, with a negative volume, stay
-   * unless they are within one that is left out. From 0 to 1. */
+   * largest one, such as droplets, are left out. With capping a bubble, whose volume is negative, is
+   * left out only with the component around it. From 0 to 1. */
   double minimum_piece_size; /* Default: 0 */
 } isopoint_options;
 
@@ -179,8 +179,9 @@ ISOPOINT_API void isopoint_initialize_options(isopoint_options* options, size_t 
 /* -------------------------------------------------------------------------------- */
 /* Extractors */
 
-/* The version of the loaded library, possibly later than ISOPOINT_VERSION. */
+/* The version of the loaded library, possibly another one than that of this header. */
 ISOPOINT_API const char* isopoint_version(void);
+ISOPOINT_API int32_t isopoint_version_number(void);
 
 /* A new extractor without samples, or null if memory is lacking. */
 ISOPOINT_API isopoint_extractor* isopoint_create_extractor(void);
@@ -198,9 +199,9 @@ ISOPOINT_API const char* isopoint_get_error(void);
 ISOPOINT_API isopoint_status isopoint_set_threads(isopoint_extractor* extractor, int32_t threads);
 
 /* Sets callbacks, or removes them with null, the default. They run on the thread of the call and
- * must not use its extractor or surface. They apply to calls that load, extract or probe. Surfaces
- * extracted and neighborhoods found afterwards use them too, those of surfaces until
- * isopoint_set_surface_callbacks() replaces them; `user` must outlive these.
+ * must not use its extractor, surface or neighborhoods. They apply to calls that load, extract or
+ * probe. Surfaces and neighborhoods made afterwards keep them, so `user` must outlive these, unless
+ * isopoint_set_surface_callbacks() or isopoint_set_neighborhoods_callbacks() replaces them.
  * @param progress(user, fraction) the share of the call that is done, 0 to 1, ascending
  * @param cancels(user) called every few tens of milliseconds; nonzero ends the call, which returns
  * ISOPOINT_CANCELED and leaves the extractor usable */
@@ -216,9 +217,10 @@ ISOPOINT_API isopoint_status isopoint_set_name(isopoint_extractor* extractor, co
  * a later time step takes a fraction of the time.
  *
  * Samples with a non-finite position or value are skipped; see isopoint_get_message(). Coincident
- * samples count as one, with the mean value. 64-bit integers are rounded to double. Values of
- * integer types are taken as rounded: fits ignore details below 1 / sqrt(12). After an error the
- * extractor has no samples. O(n)
+ * samples count as one, with the mean value. 64-bit integers are rounded to double. Integers are
+ * taken to be rounded, with an error of the standard deviation 1 / sqrt(12), which fits ignore. If
+ * an array cannot be used, the extractor keeps its former samples; after other errors it has none.
+ * O(n)
  * @param positions of type float or double, three components
  * @param values of any type, one component, as many as positions; null if only isopoint_probe() is
  * called
@@ -236,28 +238,29 @@ ISOPOINT_API void isopoint_get_value_range(const isopoint_extractor* extractor, 
 /* -------------------------------------------------------------------------------- */
 /* Values at places */
 
-enum
+typedef enum isopoint_method
 {
   ISOPOINT_METHOD_BLEND = 0,     /* the mean of four fits, weighted by their estimated errors */
   ISOPOINT_METHOD_CUBIC = 1,     /* a polynomial of degree three: linear in the values */
   ISOPOINT_METHOD_QUADRATIC = 2, /* of degree two: linear in the values */
   ISOPOINT_METHOD_AFFINE = 3,    /* of degree one: linear in the values, but no interpolation in cells */
   ISOPOINT_METHOD_NEAREST = 4    /* the nearest sample */
-};
+} isopoint_method;
 
-enum
+/* What places outside the samples get. Places without finite coordinates always get the number. */
+typedef enum isopoint_outside
 {
   ISOPOINT_OUTSIDE_NUMBER = 0,     /* a number */
   ISOPOINT_OUTSIDE_NEAREST = 1,    /* the value of the nearest sample */
-  ISOPOINT_OUTSIDE_EXTRAPOLATE = 2 /* what the method gives: no place counts as outside */
-};
+  ISOPOINT_OUTSIDE_EXTRAPOLATE = 2 /* what the method gives: no other place counts as outside */
+} isopoint_outside;
 
 /* How to probe places. isopoint_initialize_probe_options() sets `size` and all defaults. */
 typedef struct isopoint_probe_options
 {
   uint64_t size;         /* of this struct, in bytes */
-  int32_t method;        /* Default: BLEND */
-  int32_t outside;       /* what places outside the samples get. Default: NUMBER */
+  int32_t method;        /* an isopoint_method. Default: BLEND */
+  int32_t outside;       /* an isopoint_outside. Default: NUMBER */
   double outside_number; /* for NUMBER. Default: NaN */
 } isopoint_probe_options;
 
@@ -265,46 +268,53 @@ typedef struct isopoint_probe_options
 ISOPOINT_API void isopoint_initialize_probe_options(isopoint_probe_options* options, size_t size);
 
 /* Memory for the results of one array. */
-typedef struct isopoint_probed
+typedef struct isopoint_probe_result
 {
   /* One tuple per place, contiguous, with the components of the array: double, or the type of the
    * array with NEAREST. */
   void* values;
   double* gradients; /* null, or three numbers for each component of each place; not with NEAREST */
-} isopoint_probed;
+} isopoint_probe_result;
 
-enum
+typedef enum isopoint_place_flag
 {
   ISOPOINT_PLACE_OUTSIDE = 1, /* of the samples */
   ISOPOINT_PLACE_FLAT = 2     /* the samples around are in a plane, on a line or at one position */
-};
+} isopoint_place_flag;
 
 /* Interpolates arrays at places: a fit to the nearest samples, its value and its gradient. Search
  * and weights are computed once for all arrays. The values of isopoint_set_samples() take no part.
  *
- * A place is outside if the 27 nearest samples are on one side of it, or if the nearest one is
- * farther than 0.9 times the distance between this one and the eighth nearest to it. A place at a
- * sample, or within a thousandth of this distance, is inside. Where samples are flat, results are
- * those at the nearest point of their plane or line, and gradients have no part across. A sample
- * whose value is not finite does not exist for its array; one array then may be outside where others
- * are not, and gets the number, whatever `outside` says, where none of the nearest samples (64 with
- * BLEND, 48 with CUBIC, otherwise 27) has a value. Coincident samples count as one, with the mean
- * value; NEAREST takes the first that has one. BLEND fits all components of an array alike, so that
- * turned vectors give turned results; its values leave the range of the samples around only at
- * extrema that these show. Values of integer types are taken as rounded. Coordinates that are not
- * finite give places outside. Outside, gradients are NaN for NUMBER and 0 for NEAREST. Integers of
- * NEAREST get the number without its fraction, or 0 if their type does not hold it. Places may be in
- * any order; those in the order of the tree are no faster. O(log n) for each place after O(n) for
- * the first, except where very many samples have the same distance. Coordinates whose squared
- * distances overflow count as not finite.
+ * Outside: a place is outside if the 27 nearest samples are on one side of it, or if the nearest one
+ * is farther than 0.9 times the distance between this one and the eighth nearest to it. A place at a
+ * sample, or within a thousandth of this distance, is inside. Coordinates that are not finite, or
+ * whose squared distances overflow, give places outside. Gradients outside are NaN for NUMBER and 0
+ * for NEAREST.
+ *
+ * Flat: where samples are in a plane or on a line, results are those at the nearest point of it, and
+ * gradients have no part across.
+ *
+ * Missing values: a sample without a finite value in an array is ignored for this array alone, so a
+ * place may be outside for one array and inside for another. If none of the fitted samples (64 with
+ * BLEND, 48 with CUBIC, 27 with QUADRATIC and NEAREST, 13 with AFFINE) has a value, the array gets
+ * the number, whatever `outside` says. Coincident samples count as one, with the mean value; NEAREST
+ * takes the first that has one.
+ *
+ * Components: BLEND fits all components of an array alike, so that turned vectors give turned
+ * results. Its values exceed the range of the samples around only at extrema that these show.
+ * Integers are taken to be rounded. With NEAREST they get the number without its fraction, or 0 if
+ * their type does not hold it.
+ *
+ * Cost: O(log n) for each place after O(n) for the first, except where very many samples have the
+ * same distance.
  * @param places of type float or double, three components
  * @param arrays `array_count` arrays, each of as many tuples as there were samples
  * @param options null for the defaults
- * @param results `array_count`, written on success; on failure their content is undefined
- * @param kinds null, or receives for each place the sum of its ISOPOINT_PLACE_... */
+ * @param results `array_count`
+ * @param flags null, or receives for each place the sum of its ISOPOINT_PLACE_... */
 ISOPOINT_API isopoint_status isopoint_probe(isopoint_extractor* extractor,
   const isopoint_array* places, const isopoint_array* arrays, int64_t array_count,
-  const isopoint_probe_options* options, const isopoint_probed* results, uint8_t* kinds);
+  const isopoint_probe_options* options, const isopoint_probe_result* results, uint8_t* flags);
 
 /* The samples around places, kept so that later arrays, such as those of other time steps, cost only
  * the products with weights; with BLEND, the fits. Takes 0.3 kB a place with BLEND, up to 1.7 kB with
@@ -318,18 +328,25 @@ ISOPOINT_API isopoint_status isopoint_find_neighborhoods(isopoint_extractor* ext
   const isopoint_array* places, const isopoint_probe_options* options,
   isopoint_neighborhoods** neighborhoods);
 
-/* isopoint_probe() for the places of neighborhoods, with the same results. It uses the threads and
- * callbacks that the extractor had when it found these. */
+/* Sets the maximum number of threads of calls on neighborhoods, or their callbacks: at first those
+ * that the extractor had when it found them. See isopoint_set_threads(), isopoint_set_callbacks(). */
+ISOPOINT_API isopoint_status isopoint_set_neighborhoods_threads(
+  isopoint_neighborhoods* neighborhoods, int32_t threads);
+ISOPOINT_API isopoint_status isopoint_set_neighborhoods_callbacks(
+  isopoint_neighborhoods* neighborhoods, void (*progress)(void* user, double fraction),
+  int (*cancels)(void* user), void* user);
+
+/* isopoint_probe() for the places of neighborhoods, with the same results. */
 ISOPOINT_API isopoint_status isopoint_probe_neighborhoods(
   const isopoint_neighborhoods* neighborhoods, const isopoint_array* arrays, int64_t array_count,
-  const isopoint_probed* results, uint8_t* kinds);
+  const isopoint_probe_result* results, uint8_t* flags);
 
 /* Weights of samples: a sparse matrix with a row for each place, in compressed rows. Its product
  * with an array is the value at each place. Coincident samples share a weight, except with NEAREST. */
 typedef struct isopoint_weights
 {
   int64_t row_count;
-  const int64_t* begins;          /* of the rows, and the end: row_count + 1 */
+  const int64_t* row_begins;      /* the first entry of each row, and the end: row_count + 1 */
   const int64_t* samples;         /* the sample of each entry */
   const double* values;           /* the weight of each entry in the value */
   const double* gradients;        /* three each: in the gradient */
@@ -352,7 +369,7 @@ ISOPOINT_API void isopoint_destroy_neighborhoods(isopoint_neighborhoods* neighbo
 /* Extracts isosurfaces: for each distinct isovalue, ascending, the points where edges between
  * neighboring samples cross it. The first extraction takes O(n) to build the levels of the tree
  * that are larger than the surface; further ones only process samples near the surface.
- * @param isovalues `count` numbers, possibly infinite but not NaN
+ * @param isovalues `count` numbers, at most 2^24, possibly infinite but not NaN
  * @param options null for the defaults
  * @param surface receives a surface, to be freed by isopoint_destroy_surface(). If it has no points
  * although there are isovalues, isopoint_get_message() says why. After ISOPOINT_INTERNAL_ERROR the
@@ -360,8 +377,8 @@ ISOPOINT_API void isopoint_destroy_neighborhoods(isopoint_neighborhoods* neighbo
  *
  * To slice samples along a plane or another implicit function, pass the function's values at the
  * samples, as double, to isopoint_set_samples(), and extract triangles without projection and
- * normals, but with keep_hull_slivers. Planes have the function dot(position, normal): a plane that
- * moves along its normal is another isovalue. Then isopoint_probe() with EXTRAPOLATE gives all
+ * normals, but with keep_hull_slivers. The function of a plane is dot(position, normal): to move the
+ * plane along its normal, change the isovalue. Then isopoint_probe() with EXTRAPOLATE gives all
  * arrays at the points by fits, also at rims, where slivers on the convex hull have edges that are
  * far too long for isopoint_interpolate(). */
 ISOPOINT_API isopoint_status isopoint_extract(isopoint_extractor* extractor,
@@ -375,28 +392,30 @@ ISOPOINT_API void isopoint_destroy_surface(isopoint_surface* surface);
 ISOPOINT_API isopoint_status isopoint_set_surface_threads(
   isopoint_surface* surface, int32_t threads);
 
-/* Sets the callbacks of isopoint_make_splat_mesh(), or removes them with null; then the surface no
- * longer refers to those of its extractor. See isopoint_set_callbacks(). */
+/* Replaces the callbacks that the surface took over from its extractor; null removes them. They apply
+ * to isopoint_interpolate(), isopoint_make_splat_mesh() and isopoint_average_at_splat_vertices(). See
+ * isopoint_set_callbacks(). */
 ISOPOINT_API isopoint_status isopoint_set_surface_callbacks(isopoint_surface* surface,
   void (*progress)(void* user, double fraction), int (*cancels)(void* user), void* user);
 
 /* What a message is about. */
 typedef enum isopoint_message_code
 {
-  ISOPOINT_SKIPPED_SAMPLES = 1,    /* some are not finite; not a warning */
-  ISOPOINT_NO_SAMPLES = 2,         /* all are skipped */
-  ISOPOINT_CONSTANT_VALUES = 3,    /* no surface: all values are the same */
-  ISOPOINT_ISOVALUE_OUTSIDE = 4,   /* no surface: the isovalue is outside the range of the values */
-  ISOPOINT_TOO_FEW_SAMPLES = 5,    /* no surface: there are fewer than four */
-  ISOPOINT_ALL_IN_GAPS = 6,        /* no surface: all of it is in gaps between samples */
-  ISOPOINT_NO_CROSSING = 7,        /* no surface for another reason, such as samples in one plane */
-  ISOPOINT_POINTS_WITHOUT_FIT = 8, /* no fit moved most points */
-  ISOPOINT_SPLATS_APART = 9,       /* many splats do not meet */
-  ISOPOINT_BEYOND_FLOAT = 10       /* float cannot hold positions or splats */
+  ISOPOINT_MESSAGE_SKIPPED_SAMPLES = 1,    /* some are not finite; not a warning */
+  ISOPOINT_MESSAGE_NO_SAMPLES = 2,         /* all are skipped */
+  ISOPOINT_MESSAGE_CONSTANT_VALUES = 3,    /* no surface: all values are the same */
+  ISOPOINT_MESSAGE_ISOVALUE_OUTSIDE = 4,   /* no surface: the isovalue is outside the range of the values */
+  ISOPOINT_MESSAGE_TOO_FEW_SAMPLES = 5,    /* no surface: there are fewer than four */
+  ISOPOINT_MESSAGE_ALL_IN_GAPS = 6,        /* no surface: all of it is in gaps between samples */
+  ISOPOINT_MESSAGE_NO_CROSSING = 7,        /* no surface for another reason, such as samples in one plane */
+  ISOPOINT_MESSAGE_POINTS_WITHOUT_FIT = 8, /* no fit moved most points */
+  ISOPOINT_MESSAGE_SPLATS_APART = 9,       /* many splats do not meet */
+  ISOPOINT_MESSAGE_BEYOND_FLOAT = 10       /* float cannot hold positions or splats */
 } isopoint_message_code;
 
 /* A message for the user about a result, such as skipped samples or an isovalue without a surface:
- * a sentence, and the remedy. Null if there is no message of this index.
+ * a sentence, and the remedy. Null if there is no message of this index. It is valid until the surface
+ * is destroyed, or isopoint_join_messages() changes its messages; so is its cause below.
  * @param index from 0
  * @param is_warning null, or receives 1 if the result is not what was requested, otherwise 0 */
 ISOPOINT_API const char* isopoint_get_message(
@@ -412,7 +431,7 @@ ISOPOINT_API int32_t isopoint_get_message_code(const isopoint_surface* surface, 
 ISOPOINT_API const char* isopoint_get_message_cause(
   const isopoint_surface* surface, int64_t index);
 
-/* Adds the counts of another surface to those of a surface, whose messages are then about both: for
+/* Merges the statistics of `other` into those of `surface`, whose messages then describe both: for
  * blocks of one data set that are contoured separately. An isovalue without points in one of them
  * causes no message if the other one has some.
  * @param other extracted with the same isovalues and options */
@@ -430,30 +449,30 @@ ISOPOINT_API int64_t isopoint_get_dropped_count(const isopoint_surface* surface)
  * infinite in float arrays. */
 typedef enum isopoint_array_id
 {
-  ISOPOINT_POINTS = 0,            /* three float or double */
-  ISOPOINT_ISOVALUES = 1,         /* double: the isovalue of each point */
-  ISOPOINT_NORMALS = 2,           /* three float, of length 1, towards decreasing values */
-  ISOPOINT_GRADIENTS = 3,         /* three float, in units of values per unit of positions */
-  ISOPOINT_PROJECTION_ORDERS = 4, /* uint8: the ISOPOINT_PROJECTION_... that moved the point */
+  ISOPOINT_ARRAY_POINTS = 0,            /* three float or double */
+  ISOPOINT_ARRAY_ISOVALUES = 1,         /* double: the isovalue of each point */
+  ISOPOINT_ARRAY_NORMALS = 2,           /* three float, of length 1, towards decreasing values */
+  ISOPOINT_ARRAY_GRADIENTS = 3,         /* three float, in units of values per unit of positions */
+  ISOPOINT_ARRAY_PROJECTION_ORDERS = 4, /* uint8: the ISOPOINT_PROJECTION_... that moved the point */
   /* For a regularized vertex, merged from several crossings, the edge of the nearest crossing: */
-  ISOPOINT_EDGES = 5,             /* two int64: the samples at its ends, lower number first; for a
+  ISOPOINT_ARRAY_EDGES = 5,             /* two int64: the samples at its ends, lower number first; for a
                                      vertex of a cap at a sample, twice the same */
-  ISOPOINT_EDGE_PARAMETERS = 6,   /* double: the position of the point on its edge, 0 to 1 */
-  ISOPOINT_TRIANGLES = 7,         /* three int64: points, counterclockwise seen from lower values */
+  ISOPOINT_ARRAY_EDGE_PARAMETERS = 6,   /* double: the position of the point on its edge, 0 to 1 */
+  ISOPOINT_ARRAY_TRIANGLES = 7,         /* three int64: points, counterclockwise seen from lower values */
   /* The splat of a point p with normal n is a fan of triangles from p to each two consecutive of
    * eight corners. Let r be its radius, t1 its axis, and t2 the cross product n x t1. */
-  ISOPOINT_RADII = 8,      /* float: r, the distance of the farthest corner; 0 without corners */
-  ISOPOINT_SPLAT_AXES = 9, /* three float: t1, tangential and as long as r */
+  ISOPOINT_ARRAY_RADII = 8,      /* float: r, the distance of the farthest corner; 0 without corners */
+  ISOPOINT_ARRAY_SPLAT_AXES = 9, /* three float: t1, tangential and as long as r */
   /* 40 float: a, b, h, u, v of each corner. The corner is at p + a t1 + b t2 + h r n and has the
    * normal n + (u t1 + v t2) / r, not of length 1. Counterclockwise seen from the tip of n. Unused
    * corners repeat the last one. All are 0 if the splat of a close point takes the place of this one. */
-  ISOPOINT_SPLAT_POLYGONS = 10,
+  ISOPOINT_ARRAY_SPLAT_POLYGONS = 10,
   /* After isopoint_make_splat_mesh(): */
-  ISOPOINT_SPLAT_VERTICES = 11,       /* three float or double, as points */
-  ISOPOINT_SPLAT_VERTEX_NORMALS = 12, /* three float */
-  ISOPOINT_SPLAT_VERTEX_POINTS = 13,  /* int64: the point of each vertex */
-  ISOPOINT_SPLAT_TRIANGLES = 14,      /* three int64: vertices */
-  ISOPOINT_CAPS = 15                  /* uint8: with capping, whether each triangle is part of a cap */
+  ISOPOINT_ARRAY_SPLAT_VERTICES = 11,       /* three float or double, as points */
+  ISOPOINT_ARRAY_SPLAT_VERTEX_NORMALS = 12, /* three float */
+  ISOPOINT_ARRAY_SPLAT_VERTEX_POINTS = 13,  /* int64: the point of each vertex */
+  ISOPOINT_ARRAY_SPLAT_TRIANGLES = 14,      /* three int64: vertices */
+  ISOPOINT_ARRAY_CAPS = 15                  /* uint8: with capping, whether each triangle is part of a cap */
 } isopoint_array_id;
 
 /* An array of a surface. Its memory is valid until the surface is destroyed or, for a splat mesh,
@@ -462,7 +481,7 @@ ISOPOINT_API isopoint_status isopoint_get_array(
   const isopoint_surface* surface, int32_t array_id, isopoint_array* array);
 
 /* Interpolates an array of the samples at the points of a surface, keeping components and type. May
- * be canceled, as isopoint_average_at_splat_vertices(); the result is then undefined. Integers are
+ * be canceled, as isopoint_average_at_splat_vertices(). Integers are
  * rounded to the nearest, after conversion to double. Coincident samples are averaged.
  * @param of_samples as many tuples as there were samples in isopoint_set_samples()
  * @param result memory for one tuple per point, contiguous */

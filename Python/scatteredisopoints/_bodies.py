@@ -12,6 +12,7 @@ import numpy as np
 
 from . import _datasets, _library
 from ._isosurface import Isosurface
+from ._option_types import BodyOptions
 from ._options import hint, make_options, thread_count
 from ._progress import Progress, part, shown_progress
 from ._slices import arrays_of
@@ -19,7 +20,7 @@ from ._slices import arrays_of
 if TYPE_CHECKING:
     from ._samples import Samples
 
-OPTIONS = ("drop_gaps", "minimum_piece_size", "output_points_precision")
+OPTIONS = tuple(BodyOptions.__annotations__)
 
 
 @dataclass

@@ -14,6 +14,7 @@ from typing import Any, Callable, Generator, Optional
 
 import numpy as np
 
+from ._option_types import MEMBERS, OPTION_TYPES
 from ._paths import LIBRARY
 
 # isopoint_array_id
@@ -81,7 +82,7 @@ class Memory:
 
 
 class Probed(ctypes.Structure):
-    """isopoint_probed"""
+    """isopoint_probe_result"""
 
     _fields_ = [("values", c_void_p), ("gradients", POINTER(c_double))]
 
@@ -113,13 +114,8 @@ class ProbeOptions(ctypes.Structure):
 class Options(ctypes.Structure):
     """isopoint_options, with the defaults"""
 
-    _fields_ = [("size", c_uint64), *((name, c_int32) for name in (
-        "triangles", "projection", "normal_method", "drop_gaps", "compute_normals",
-        "compute_gradients", "compute_projection_orders", "output_points_precision",
-        "number_of_neighbors", "compute_splats")),
-        ("angle", c_double), ("keep_tetrahedra", c_int32),
-        ("regularize", c_int32), ("keep_hull_slivers", c_int32), ("capping", c_int32),
-        ("minimum_piece_size", c_double)]
+    _fields_ = [("size", c_uint64),
+                *((name, c_double if OPTION_TYPES.get(name) is float else c_int32) for name in MEMBERS)]
 
     def __init__(self):
         super().__init__()

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Names and types of options, for type checkers and completion."""
+"""The options of contour() and its family: names and types, for type checkers, completion and the C library."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal, TypedDict, Union
+from typing import TYPE_CHECKING, Any, Literal, TypedDict, Union, get_type_hints
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack as Unpack
@@ -37,28 +37,48 @@ class SliceOptions(TypedDict, total=False):
     regularize: bool
 
 
-class ContourOptions(TypedDict, total=False):
-    """Options of contour()."""
+class OptionsOfPoints(TypedDict, total=False):
+    """Options of contour() for points alone."""
 
     angle: float
+    compute_splats: bool
+    number_of_neighbors: int
+
+
+class OptionsOfTriangles(TypedDict, total=False):
+    """Options of contour() for triangles alone."""
+
     capping: bool
+    minimum_piece_size: float
+    regularize: bool
+
+
+class ContourOptions(OptionsOfPoints, OptionsOfTriangles, total=False):
+    """Options of contour()."""
+
     compute_gradients: bool
     compute_normals: bool
     compute_projection_orders: bool
     compute_scalars: bool
-    compute_splats: bool
     drop_gaps: bool
     gradient_direction: Literal["descent", "ascent"]
     keep_tree: bool
-    minimum_piece_size: float
     normal_method: Constant
-    number_of_neighbors: int
     output_points_precision: Constant
     projection: Union[Constant, None]
-    regularize: bool
 
 
 class OptionsOfContour(ContourOptions, total=False):
     """Options of contour() alone."""
 
     controller: Any
+
+
+OPTION_TYPES = get_type_hints(ContourOptions)
+"""The type of each option of contour()."""
+
+MEMBERS = (
+    "triangles", "projection", "normal_method", "drop_gaps", "compute_normals", "compute_gradients",
+    "compute_projection_orders", "output_points_precision", "number_of_neighbors", "compute_splats", "angle",
+    "keep_tetrahedra", "regularize", "keep_hull_slivers", "capping", "minimum_piece_size")
+"""The members of isopoint_options after its size, in its order: double if their type here is float, else int32_t."""

@@ -13,6 +13,7 @@ import numpy as np
 
 from . import _library
 from ._library import Options, ProbeOptions
+from ._option_types import OPTION_TYPES, OptionsOfPoints, OptionsOfTriangles, SliceOptions
 
 # Names of constants by option; their numbers are those of isopoint.h.
 CONSTANTS = {
@@ -23,10 +24,6 @@ CONSTANTS = {
     "output_points_precision": {"SINGLE_PRECISION": 0, "DOUBLE_PRECISION": 1, "DEFAULT_PRECISION": 2},
 }
 
-_OF_POINTS = ("angle", "compute_splats", "number_of_neighbors")
-_OF_TRIANGLES = ("capping", "minimum_piece_size", "regularize")
-OF_SLICES = ("regularize", "drop_gaps", "output_points_precision")
-_NOT_OPTIONS = ("size", "triangles", "keep_tetrahedra", "keep_hull_slivers")
 _PARAMETERS = ("arrays", "isovalues", "progress", "threads", "triangles")  # of contour(), which are no options
 
 
@@ -37,10 +34,8 @@ def property_name(option: str) -> str:
 
 def option_names(triangles: bool) -> list[str]:
     """The options for triangles, or for points."""
-    names = [field[0] for field in Options._fields_]
-    others = _NOT_OPTIONS + (_OF_POINTS if triangles else _OF_TRIANGLES)
-    names = [name for name in names if name not in others]
-    return sorted(names + ["compute_scalars", "keep_tree"])
+    others = (OptionsOfPoints if triangles else OptionsOfTriangles).__annotations__
+    return sorted(name for name in OPTION_TYPES if name not in others and name != "gradient_direction")
 
 
 def constant(name: str, value: Any) -> Any:
@@ -103,8 +98,8 @@ def make_slice_options(given: Mapping[str, Any]) -> Options:
     """The options of the isosurface that is a slice. Raises TypeError for unknown options and ValueError for invalid
     values."""
     for name in given:
-        if name not in OF_SLICES:
-            raise TypeError(f"unknown option {name}: {hint(name, OF_SLICES)}")
+        if name not in SliceOptions.__annotations__:
+            raise TypeError(f"unknown option {name}: {hint(name, SliceOptions.__annotations__)}")
     options = make_options(True, {**given, "projection": None, "compute_normals": False})
     options.keep_hull_slivers = 1
     return options
@@ -157,7 +152,7 @@ def switch(name: str, value: Any) -> bool:
 
 def number_of(name: str, value: Any, default: Any) -> Any:
     """Converts a value to the type of the default. Raises ValueError for values that are no numbers."""
-    if name.startswith(("capping", "compute_", "drop_", "regularize")):
+    if OPTION_TYPES.get(name) is bool:
         return int(switch(name, value))
     try:
         if isinstance(value, (bool, np.bool_, str)):

@@ -10,7 +10,8 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from . import _datasets, _library
 from ._cuts import cut_by, describe_empty, is_outermost
-from ._options import OF_SLICES, make_slice_options, method_of_slice, property_name
+from ._option_types import SliceOptions
+from ._options import make_slice_options, method_of_slice, property_name
 from ._progress import part
 from ._slices import Slice, arrays_of, make_slice
 from ._vtk_algorithm import ContourValues, ScatteredAlgorithm, describe_left_out, in_properties, with_counts, with_properties
@@ -54,7 +55,7 @@ class vtkScatteredSliceFilter(ContourValues, ScatteredAlgorithm):
         samples = self._loaded(data, 0, None, lambda: _datasets.samples_at(data, with_arrays=True), (0.0, LOADED))
         cut, level = cut_by(self._function)
         levels = [level + value for value in self.GetValues()]
-        options = make_slice_options({name: self._values[property_name(name)] for name in OF_SLICES})
+        options = make_slice_options({name: self._values[property_name(name)] for name in SliceOptions.__annotations__})
         options.keep_tetrahedra = self._values["KeepTree"]
         try:
             made = make_slice(samples, cut, levels, options, arrays_of(samples, None),

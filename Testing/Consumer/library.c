@@ -16,7 +16,7 @@ int main(void)
   isopoint_extractor* extractor = isopoint_create_extractor();
   const int failed = isopoint_set_samples(extractor, &positions, &values, NULL) ||
                      isopoint_extract(extractor, &isovalue, 1, NULL, &surface) ||
-                     isopoint_get_array(surface, ISOPOINT_POINTS, &points);
+                     isopoint_get_array(surface, ISOPOINT_ARRAY_POINTS, &points);
   const int found = !failed && points.count == 1 && ((const float*)points.data)[0] == 0.25f;
   isopoint_destroy_surface(surface);
   isopoint_destroy_extractor(extractor);

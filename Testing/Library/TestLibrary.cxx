@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <functional>
 #include <limits>
@@ -127,7 +128,7 @@ std::vector<T> numbersOf(const Surface& surface, isopoint_array_id id)
 std::string bytesOf(const Surface& surface)
 {
   std::string bytes;
-  for (std::int32_t id = ISOPOINT_POINTS; id <= ISOPOINT_SPLAT_TRIANGLES; ++id)
+  for (std::int32_t id = ISOPOINT_ARRAY_POINTS; id <= ISOPOINT_ARRAY_CAPS; ++id)
   {
     const isopoint_array array = arrayOf(surface, id);
     constexpr std::array<std::size_t, 10> sizes{ 4, 8, 1, 1, 2, 2, 4, 4, 8, 8 };
@@ -201,10 +202,10 @@ struct KeptSplats
   std::vector<float> polygons;
 
   explicit KeptSplats(const Surface& surface)
-    : points(numbersOf<double>(surface, ISOPOINT_POINTS))
-    , normals(numbersOf<float>(surface, ISOPOINT_NORMALS))
-    , axes(numbersOf<float>(surface, ISOPOINT_SPLAT_AXES))
-    , polygons(numbersOf<float>(surface, ISOPOINT_SPLAT_POLYGONS))
+    : points(numbersOf<double>(surface, ISOPOINT_ARRAY_POINTS))
+    , normals(numbersOf<float>(surface, ISOPOINT_ARRAY_NORMALS))
+    , axes(numbersOf<float>(surface, ISOPOINT_ARRAY_SPLAT_AXES))
+    , polygons(numbersOf<float>(surface, ISOPOINT_ARRAY_SPLAT_POLYGONS))
   {
   }
 
@@ -236,8 +237,8 @@ TEST(Library, ExtractsASphere)
   for (const isopoint_options& options : { defaults, withTriangles })
   {
     const Surface surface = extractor.extract({ 0.7 }, options);
-    const auto points = numbersOf<double>(surface, ISOPOINT_POINTS);
-    const auto normals = numbersOf<float>(surface, ISOPOINT_NORMALS);
+    const auto points = numbersOf<double>(surface, ISOPOINT_ARRAY_POINTS);
+    const auto normals = numbersOf<float>(surface, ISOPOINT_ARRAY_NORMALS);
     ASSERT_GT(points.size(), 1500u);
     ASSERT_EQ(points.size(), normals.size());
     for (std::size_t i = 0; i < points.size(); i += 3)
@@ -275,8 +276,8 @@ TEST(Library, SlicesABlock)
   };
   const auto areaOf = [](const Surface& surface)
   {
-    const auto points = numbersOf<double>(surface, ISOPOINT_POINTS);
-    const auto corners = numbersOf<std::int64_t>(surface, ISOPOINT_TRIANGLES);
+    const auto points = numbersOf<double>(surface, ISOPOINT_ARRAY_POINTS);
+    const auto corners = numbersOf<std::int64_t>(surface, ISOPOINT_ARRAY_TRIANGLES);
     const auto at = [&](std::size_t corner, std::size_t axis)
     { return points[3 * static_cast<std::size_t>(corners[corner]) + axis]; };
     double area = 0.0;
@@ -292,16 +293,16 @@ TEST(Library, SlicesABlock)
   EXPECT_NEAR(
     areaOf(slice), areaOf(sliced(1, 0)), 1e-12); // no triangle is turned over, the rim stays
   EXPECT_LT(areaOf(sliced(0)), 3.96);            // the rim is frayed
-  const isopoint_array points = arrayOf(slice, ISOPOINT_POINTS);
+  const isopoint_array points = arrayOf(slice, ISOPOINT_ARRAY_POINTS);
   const isopoint_array array = arrayOf(distances, ISOPOINT_DOUBLE, 1);
   std::vector<double> fitted(static_cast<std::size_t>(points.count));
-  const isopoint_probed result{ fitted.data(), nullptr };
+  const isopoint_probe_result result{ fitted.data(), nullptr };
   isopoint_probe_options options;
   isopoint_initialize_probe_options(&options, sizeof(options));
   options.outside = ISOPOINT_OUTSIDE_EXTRAPOLATE;
   ASSERT_EQ(
     isopoint_probe(extractor.get(), &points, &array, 1, &options, &result, nullptr), ISOPOINT_OK);
-  const auto places = numbersOf<double>(slice, ISOPOINT_POINTS);
+  const auto places = numbersOf<double>(slice, ISOPOINT_ARRAY_POINTS);
   for (std::size_t i = 0; i < fitted.size(); ++i)
   {
     EXPECT_NEAR(places[3 * i], 0.3, 1e-14);
@@ -373,8 +374,8 @@ void expectSameAsDouble(isopoint_type type)
   EXPECT_EQ(range[1], *greatest);
 
   const Surface surface = extractor.extract({ 40.5 });
-  const auto edges = numbersOf<std::int64_t>(surface, ISOPOINT_EDGES);
-  const auto parameters = numbersOf<double>(surface, ISOPOINT_EDGE_PARAMETERS);
+  const auto edges = numbersOf<std::int64_t>(surface, ISOPOINT_ARRAY_EDGES);
+  const auto parameters = numbersOf<double>(surface, ISOPOINT_ARRAY_EDGE_PARAMETERS);
   ASSERT_GT(parameters.size(), 500u);
   std::vector<T> result(parameters.size());
   ASSERT_EQ(isopoint_interpolate(surface.get(), &values, result.data()), ISOPOINT_OK);
@@ -418,7 +419,7 @@ TEST(Library, ExcludedAndInvalidSamplesTakeNoPart)
   EXPECT_EQ(isopoint_get_skipped_count(extractor.get()), 501);
   EXPECT_EQ(isopoint_get_sample_count(extractor.get()), 4499);
   const Surface surface = extractor.extract();
-  for (const std::int64_t sample : numbersOf<std::int64_t>(surface, ISOPOINT_EDGES))
+  for (const std::int64_t sample : numbersOf<std::int64_t>(surface, ISOPOINT_ARRAY_EDGES))
   {
     EXPECT_TRUE(sample % 10 != 0 && sample != 5) << sample;
   }
@@ -430,7 +431,7 @@ TEST(Library, ExcludedAndInvalidSamplesTakeNoPart)
     expectContains(message, part);
   }
   EXPECT_EQ(isWarning, 0);
-  EXPECT_EQ(isopoint_get_message_code(surface.get(), 0), ISOPOINT_SKIPPED_SAMPLES);
+  EXPECT_EQ(isopoint_get_message_code(surface.get(), 0), ISOPOINT_MESSAGE_SKIPPED_SAMPLES);
   EXPECT_EQ(isopoint_get_message(surface.get(), 1, nullptr), nullptr);
   EXPECT_EQ(isopoint_get_message_code(surface.get(), 1), 0);
 }
@@ -439,18 +440,18 @@ TEST(Library, AnEmptySurfaceIsExplained)
 {
   const Extractor extractor((Cloud()));
   const Surface outside = extractor.extract({ 9.125 });
-  EXPECT_TRUE(numbersOf<double>(outside, ISOPOINT_POINTS).empty());
+  EXPECT_TRUE(numbersOf<double>(outside, ISOPOINT_ARRAY_POINTS).empty());
   std::int32_t isWarning = 0;
   expectContains(isopoint_get_message(outside.get(), 0, &isWarning), "9.125");
   EXPECT_EQ(isWarning, 1);
-  EXPECT_EQ(isopoint_get_message_code(outside.get(), 0), ISOPOINT_ISOVALUE_OUTSIDE);
+  EXPECT_EQ(isopoint_get_message_code(outside.get(), 0), ISOPOINT_MESSAGE_ISOVALUE_OUTSIDE);
 
   const Cloud cloud(10);
   ASSERT_EQ(cloud.load(extractor.get(), std::vector<std::uint8_t>(10, 1)), ISOPOINT_OK);
   const Surface none = extractor.extract();
   ASSERT_NE(isopoint_get_message(none.get(), 0, nullptr), nullptr);
   expectContains(isopoint_get_message(none.get(), 0, nullptr), "no sample");
-  EXPECT_EQ(isopoint_get_message_code(none.get(), 0), ISOPOINT_NO_SAMPLES);
+  EXPECT_EQ(isopoint_get_message_code(none.get(), 0), ISOPOINT_MESSAGE_NO_SAMPLES);
   const isopoint_array values = cloud.valueArray();
   EXPECT_EQ(isopoint_interpolate(none.get(), &values, nullptr), ISOPOINT_OK);
   isopoint_get_value_range(extractor.get(), nullptr);
@@ -462,22 +463,22 @@ TEST(Library, EachReasonOfAnEmptySurfaceHasACode)
     [](const Cloud& cloud, double isovalue, const isopoint_options& options = withTriangles)
   {
     const Surface surface = Extractor(cloud).extract({ isovalue }, options);
-    EXPECT_EQ(arrayOf(surface, ISOPOINT_POINTS).count, 0);
+    EXPECT_EQ(arrayOf(surface, ISOPOINT_ARRAY_POINTS).count, 0);
     EXPECT_NE(isopoint_get_message(surface.get(), 0, nullptr), nullptr);
     return isopoint_get_message_code(surface.get(), 0);
   };
   const Cloud few(3);
-  EXPECT_EQ(codeOf(few, (few.values[0] + few.values[1]) / 2.0), ISOPOINT_TOO_FEW_SAMPLES);
+  EXPECT_EQ(codeOf(few, (few.values[0] + few.values[1]) / 2.0), ISOPOINT_MESSAGE_TOO_FEW_SAMPLES);
   Cloud cloud;
   const double greatest = *std::max_element(cloud.values.begin(), cloud.values.end());
-  EXPECT_EQ(codeOf(cloud, greatest), ISOPOINT_ISOVALUE_OUTSIDE);
+  EXPECT_EQ(codeOf(cloud, greatest), ISOPOINT_MESSAGE_ISOVALUE_OUTSIDE);
   for (std::size_t i = 2; i < cloud.positions.size(); i += 3)
   {
     cloud.positions[i] = 0.0;
   }
-  EXPECT_EQ(codeOf(cloud, 0.7), ISOPOINT_NO_CROSSING);
+  EXPECT_EQ(codeOf(cloud, 0.7), ISOPOINT_MESSAGE_NO_CROSSING);
   std::fill(cloud.values.begin(), cloud.values.end(), 0.7);
-  EXPECT_EQ(codeOf(cloud, 0.7), ISOPOINT_CONSTANT_VALUES);
+  EXPECT_EQ(codeOf(cloud, 0.7), ISOPOINT_MESSAGE_CONSTANT_VALUES);
 }
 
 TEST(Library, LengthsThatOverflowFloatAreExplained)
@@ -490,9 +491,10 @@ TEST(Library, LengthsThatOverflowFloatAreExplained)
       coordinate *= scale;
     }
     const Surface surface = Extractor(cloud).extract({ 0.7 }, options);
-    EXPECT_GT(arrayOf(surface, ISOPOINT_POINTS).count, 100);
+    EXPECT_GT(arrayOf(surface, ISOPOINT_ARRAY_POINTS).count, 100);
     const char* const message = isopoint_get_message(surface.get(), 0, nullptr);
-    EXPECT_EQ(isopoint_get_message_code(surface.get(), 0), message ? ISOPOINT_BEYOND_FLOAT : 0);
+    EXPECT_EQ(
+      isopoint_get_message_code(surface.get(), 0), message ? ISOPOINT_MESSAGE_BEYOND_FLOAT : 0);
     return std::string(message ? message : "");
   };
   const auto single = optionsWith(
@@ -605,7 +607,7 @@ TEST(Library, InvalidCallsAreErrors)
   EXPECT_EQ(surface, nullptr);
   expectInvalid(isopoint_set_threads(extractor.get(), -1));
   isopoint_array array;
-  expectInvalid(isopoint_get_array(nullptr, ISOPOINT_POINTS, &array));
+  expectInvalid(isopoint_get_array(nullptr, ISOPOINT_ARRAY_POINTS, &array));
   const Surface made = extractor.extract();
   expectInvalid(isopoint_get_array(made.get(), 99, &array));
   expectInvalid(isopoint_make_splat_mesh(made.get(), 0.0));
@@ -622,7 +624,7 @@ TEST(Library, InvalidCallsAreErrors)
     isopoint_interpolate(made.get(), &few, result.data()), "5000", ISOPOINT_INVALID_ARRAY);
 }
 
-TEST(Library, InvalidArraysAreErrorsAndLeaveNoSamples)
+TEST(Library, InvalidArraysAreErrorsAndKeepTheSamples)
 {
   const Cloud cloud;
   const std::vector<std::function<void(isopoint_array&, isopoint_array&)>> changes{
@@ -648,7 +650,8 @@ TEST(Library, InvalidArraysAreErrorsAndLeaveNoSamples)
     change(positions, values);
     expectInvalid(isopoint_set_samples(extractor.get(), &positions, &values, nullptr), "",
       ISOPOINT_INVALID_ARRAY);
-    EXPECT_EQ(isopoint_get_sample_count(extractor.get()), 0);
+    EXPECT_EQ(isopoint_get_sample_count(extractor.get()), 5000);
+    extractor.extract();
   }
 }
 
@@ -662,10 +665,10 @@ TEST(Library, CloudsWithoutSamplesHaveEmptySurfaces)
   isopoint_get_value_range(extractor.get(), range);
   EXPECT_TRUE(std::isnan(range[0]) && std::isnan(range[1]));
   const Surface surface = extractor.extract();
-  EXPECT_TRUE(numbersOf<float>(surface, ISOPOINT_POINTS).empty());
+  EXPECT_TRUE(numbersOf<float>(surface, ISOPOINT_ARRAY_POINTS).empty());
   EXPECT_EQ(isopoint_make_splat_mesh(surface.get(), 1.0), ISOPOINT_OK);
-  EXPECT_TRUE(numbersOf<std::int64_t>(surface, ISOPOINT_SPLAT_TRIANGLES).empty());
-  EXPECT_TRUE(numbersOf<double>(extractor.extract({}), ISOPOINT_ISOVALUES).empty());
+  EXPECT_TRUE(numbersOf<std::int64_t>(surface, ISOPOINT_ARRAY_SPLAT_TRIANGLES).empty());
+  EXPECT_TRUE(numbersOf<double>(extractor.extract({}), ISOPOINT_ARRAY_ISOVALUES).empty());
 }
 
 TEST(Library, ProgressAscendsOnTheCallersThread)
@@ -722,9 +725,10 @@ TEST(Library, ACanceledCallCanBeRepeated)
   cancelAfter(0);
   EXPECT_EQ(isopoint_make_splat_mesh(surface.get(), 0.5), ISOPOINT_CANCELED);
   EXPECT_EQ(bytesOf(surface), mesh);
-  const auto ofPoints = numbersOf<double>(surface, ISOPOINT_ISOVALUES);
+  const auto ofPoints = numbersOf<double>(surface, ISOPOINT_ARRAY_ISOVALUES);
   const isopoint_array array = arrayOf(ofPoints, ISOPOINT_DOUBLE, 1);
-  std::vector<double> means(numbersOf<std::int64_t>(surface, ISOPOINT_SPLAT_VERTEX_POINTS).size());
+  std::vector<double> means(
+    numbersOf<std::int64_t>(surface, ISOPOINT_ARRAY_SPLAT_VERTEX_POINTS).size());
   EXPECT_EQ(isopoint_average_at_splat_vertices(surface.get(), &array, means.data()), ISOPOINT_OK);
   const isopoint_array values = cloud.valueArray();
   std::vector<double> samples(ofPoints.size());
@@ -819,8 +823,8 @@ TEST(Library, SurfacesTakeOtherCallbacksAndThreads)
     EXPECT_EQ(observed.asked + static_cast<int>(observed.fractions.size()), 0);
   }
   EXPECT_EQ(former.asked + static_cast<int>(former.fractions.size()), 0);
-  EXPECT_EQ(numbersOf<double>(kept, ISOPOINT_SPLAT_VERTICES),
-    numbersOf<double>(extracted, ISOPOINT_SPLAT_VERTICES));
+  EXPECT_EQ(numbersOf<double>(kept, ISOPOINT_ARRAY_SPLAT_VERTICES),
+    numbersOf<double>(extracted, ISOPOINT_ARRAY_SPLAT_VERTICES));
   expectInvalid(isopoint_set_surface_threads(kept.get(), -1), "threads");
   expectInvalid(isopoint_set_surface_callbacks(nullptr, nullptr, nullptr, nullptr));
 }
@@ -875,6 +879,11 @@ TEST(Library, MessagesAreJoined)
   EXPECT_EQ(isopoint_get_message(joined.get(), 2, nullptr), nullptr);
   const Surface other = Extractor(Cloud()).extract({ 0.5 });
   expectInvalid(isopoint_join_messages(joined.get(), other.get()), "isovalues");
+  const Surface ofTriangles = Extractor(Cloud()).extract({ 0.7, 10.7, 99.0 }, withTriangles);
+  const Surface ungapped = Extractor(Cloud()).extract(
+    { 0.7, 10.7, 99.0 }, optionsWith([](auto& options) { options.drop_gaps = 0; }));
+  expectInvalid(isopoint_join_messages(joined.get(), ofTriangles.get()), "same options");
+  expectInvalid(isopoint_join_messages(joined.get(), ungapped.get()), "same options");
   expectInvalid(isopoint_join_messages(joined.get(), nullptr), "other surface");
   expectInvalid(isopoint_join_messages(joined.get(), joined.get()), "two surfaces");
 }
@@ -921,27 +930,45 @@ TEST(Library, CallsFailInProcessesForkedDuringACall)
 {
   const Cloud cloud;
   const Extractor extractor(cloud);
-  bool hasForked = false;
+  struct
+  {
+    Extractor bystander{ Cloud() };
+    bool hasForked = false;
+  } known;
   const auto fork = [](void* user, double)
   {
-    if (!std::exchange(*static_cast<bool*>(user), true))
+    auto& ours = *static_cast<decltype(known)*>(user);
+    if (!std::exchange(ours.hasForked, true))
     {
       expectInFork(
-        []()
+        [&]()
         {
           const Extractor other;
           return other.get() && Cloud().load(other.get()) == ISOPOINT_FORKED &&
-                 std::string(isopoint_get_error()).find("forked") != std::string::npos;
+                 std::string(isopoint_get_error()).find("forked") != std::string::npos &&
+                 Cloud().load(ours.bystander.get()) == ISOPOINT_FORKED &&
+                 isopoint_get_sample_count(ours.bystander.get()) == 5000;
         });
     }
   };
-  ASSERT_EQ(isopoint_set_callbacks(extractor.get(), fork, nullptr, &hasForked), ISOPOINT_OK);
+  ASSERT_EQ(isopoint_set_callbacks(extractor.get(), fork, nullptr, &known), ISOPOINT_OK);
   ASSERT_EQ(cloud.load(extractor.get()), ISOPOINT_OK);
-  EXPECT_TRUE(hasForked);
+  EXPECT_TRUE(known.hasForked);
   extractor.extract();
 }
 
 #endif
+
+TEST(Library, VersionsAreThoseOfTheHeader)
+{
+  int major = 0;
+  int minor = 0;
+  int patch = 0;
+  ASSERT_EQ(std::sscanf(isopoint_version(), "%d.%d.%d", &major, &minor, &patch), 3);
+  EXPECT_STREQ(isopoint_version(), ISOPOINT_VERSION);
+  EXPECT_EQ(isopoint_version_number(), 10000 * major + 100 * minor + patch);
+  EXPECT_EQ(isopoint_version_number(), ISOPOINT_VERSION_NUMBER);
+}
 
 TEST(Library, ErrorsAreThoseOfTheThread)
 {
@@ -1027,29 +1054,41 @@ TEST(Library, ArraysAreInterpolatedAtPlacesAndAgainFromNeighborhoods)
     std::array<double, 3> values{};
     std::array<double, 9> gradients{};
     std::array<double, 6> components{};
-    std::array<std::uint8_t, 3> kinds{};
-    const std::array<isopoint_probed, 2> results{ isopoint_probed{
-                                                    values.data(), gradients.data() },
-      isopoint_probed{ components.data(), nullptr } };
+    std::array<std::uint8_t, 3> flags{};
+    const std::array<isopoint_probe_result, 2> results{ isopoint_probe_result{
+                                                          values.data(), gradients.data() },
+      isopoint_probe_result{ components.data(), nullptr } };
     ASSERT_EQ(isopoint_probe(
-                extractor.get(), &places, arrays.data(), 2, &options, results.data(), kinds.data()),
+                extractor.get(), &places, arrays.data(), 2, &options, results.data(), flags.data()),
       ISOPOINT_OK)
       << isopoint_get_error();
     EXPECT_NEAR(values[0], 0.75, 1e-3);
     EXPECT_NEAR(gradients[0], 0.5 / 0.75, 1e-2);
     EXPECT_NEAR(components[1], -1.5, 2e-3);
     EXPECT_TRUE(std::isnan(values[2]) && std::isnan(gradients[6]) && std::isnan(components[5]));
-    EXPECT_EQ(kinds, (std::array<std::uint8_t, 3>{ 0, 0, ISOPOINT_PLACE_OUTSIDE }));
+    EXPECT_EQ(flags, (std::array<std::uint8_t, 3>{ 0, 0, ISOPOINT_PLACE_OUTSIDE }));
 
     isopoint_neighborhoods* neighborhoods = nullptr;
     ASSERT_EQ(
       isopoint_find_neighborhoods(extractor.get(), &places, &options, &neighborhoods), ISOPOINT_OK);
     std::array<double, 3> again{};
-    const isopoint_probed result{ again.data(), nullptr };
+    const isopoint_probe_result result{ again.data(), nullptr };
     ASSERT_EQ(
       isopoint_probe_neighborhoods(neighborhoods, arrays.data(), 1, &result, nullptr), ISOPOINT_OK);
     EXPECT_EQ(again[0], values[0]);
     EXPECT_EQ(again[1], values[1]);
+    Observed observed;
+    observed.cancelAfter = 0;
+    EXPECT_EQ(isopoint_set_neighborhoods_callbacks(neighborhoods, observe, isCanceled, &observed),
+      ISOPOINT_OK);
+    EXPECT_EQ(isopoint_set_neighborhoods_threads(neighborhoods, 1), ISOPOINT_OK);
+    EXPECT_EQ(isopoint_probe_neighborhoods(neighborhoods, arrays.data(), 1, &result, nullptr),
+      ISOPOINT_CANCELED);
+    expectInvalid(isopoint_set_neighborhoods_threads(neighborhoods, -1), "threads");
+    EXPECT_EQ(
+      isopoint_set_neighborhoods_callbacks(neighborhoods, nullptr, nullptr, nullptr), ISOPOINT_OK);
+    EXPECT_EQ(
+      isopoint_probe_neighborhoods(neighborhoods, arrays.data(), 1, &result, nullptr), ISOPOINT_OK);
     isopoint_weights weights;
     if (method == ISOPOINT_METHOD_BLEND)
     {
@@ -1060,12 +1099,12 @@ TEST(Library, ArraysAreInterpolatedAtPlacesAndAgainFromNeighborhoods)
     {
       ASSERT_EQ(isopoint_get_weights(neighborhoods, &weights), ISOPOINT_OK);
       ASSERT_EQ(weights.row_count, 3);
-      EXPECT_EQ(weights.begins[3], weights.begins[2]);
+      EXPECT_EQ(weights.row_begins[3], weights.row_begins[2]);
       for (std::size_t row = 0; row < 2; ++row)
       {
         double value = 0.0;
         double slope = 0.0;
-        for (std::int64_t i = weights.begins[row]; i < weights.begins[row + 1]; ++i)
+        for (std::int64_t i = weights.row_begins[row]; i < weights.row_begins[row + 1]; ++i)
         {
           const double number = cloud.values[static_cast<std::size_t>(weights.samples[i])];
           value += weights.values[i] * number;
@@ -1103,7 +1142,7 @@ TEST(Library, ValuesAtPlacesAreTheSameAtAllScales)
       const isopoint_array places = arrayOf(where, ISOPOINT_DOUBLE, 3);
       std::vector<double> found(3);
       std::vector<double> gradients(9);
-      const isopoint_probed result{ found.data(), gradients.data() };
+      const isopoint_probe_result result{ found.data(), gradients.data() };
       ASSERT_EQ(isopoint_probe(extractor.get(), &places, &array, 1, &options, &result, nullptr),
         ISOPOINT_OK);
       for (std::size_t i = 0; i < 6; ++i)
@@ -1117,7 +1156,7 @@ TEST(Library, ValuesAtPlacesAreTheSameAtAllScales)
       ASSERT_EQ(isopoint_find_neighborhoods(extractor.get(), &places, &options, &neighborhoods),
         ISOPOINT_OK);
       std::vector<double> again(9);
-      const isopoint_probed repeated{ found.data(), again.data() };
+      const isopoint_probe_result repeated{ found.data(), again.data() };
       ASSERT_EQ(
         isopoint_probe_neighborhoods(neighborhoods, &array, 1, &repeated, nullptr), ISOPOINT_OK);
       EXPECT_TRUE(std::equal(again.begin(), again.begin() + 6, gradients.begin()));
@@ -1144,7 +1183,7 @@ TEST(Library, TheNearestSampleKeepsItsType)
   {
     std::vector<std::int64_t> values(2, -1);
     const isopoint_probe_options options = probeOptions(ISOPOINT_METHOD_NEAREST, outside, number);
-    const isopoint_probed result{ values.data(), nullptr };
+    const isopoint_probe_result result{ values.data(), nullptr };
     EXPECT_EQ(
       isopoint_probe(extractor.get(), &places, &array, 1, &options, &result, nullptr), ISOPOINT_OK);
     EXPECT_EQ(values[0], numbers[7]);
@@ -1164,9 +1203,9 @@ TEST(Library, InvalidProbesAreErrors)
   const isopoint_array array = cloud.valueArray();
   const isopoint_array places = cloud.positionArray();
   std::vector<double> numbers(300);
-  const isopoint_probed result{ numbers.data(), nullptr };
+  const isopoint_probe_result result{ numbers.data(), nullptr };
   const auto probe = [&](const isopoint_array& of, const isopoint_array& where,
-                       const isopoint_probed& to, const isopoint_probe_options& options)
+                       const isopoint_probe_result& to, const isopoint_probe_options& options)
   { return isopoint_probe(extractor.get(), &where, &of, 1, &options, &to, nullptr); };
   const isopoint_probe_options usual = probeOptions(ISOPOINT_METHOD_BLEND);
   expectInvalid(probe(array, places, result, usual), "no samples", ISOPOINT_INVALID_ORDER);
@@ -1177,6 +1216,8 @@ TEST(Library, InvalidProbesAreErrors)
   few.count = 99;
   expectInvalid(probe(few, places, result, usual), "Pass 100 of 1", ISOPOINT_INVALID_ARRAY);
   expectInvalid(probe(array, places, { nullptr, nullptr }, usual), "memory");
+  const isopoint_array nowhere{ nullptr, ISOPOINT_DOUBLE, 3, 0, 0, 0 };
+  EXPECT_EQ(probe(array, nowhere, { nullptr, nullptr }, usual), ISOPOINT_OK);
   expectInvalid(probe(array, places, result, probeOptions(5)), "method", ISOPOINT_INVALID_OPTION);
   expectInvalid(
     probe(array, places, result, probeOptions(0, 3)), "outside", ISOPOINT_INVALID_OPTION);
@@ -1211,7 +1252,7 @@ TEST(Library, SurfacesOutliveTheirExtractor)
   extractor.reset();
   EXPECT_EQ(bytesOf(surface), bytes);
   const isopoint_array values = cloud.valueArray();
-  std::vector<double> result(numbersOf<double>(surface, ISOPOINT_ISOVALUES).size());
+  std::vector<double> result(numbersOf<double>(surface, ISOPOINT_ARRAY_ISOVALUES).size());
   ASSERT_EQ(isopoint_interpolate(surface.get(), &values, result.data()), ISOPOINT_OK);
   ASSERT_EQ(isopoint_make_splat_mesh(surface.get(), 1.0), ISOPOINT_OK);
 }
@@ -1222,9 +1263,9 @@ TEST(Library, FieldsAreAveragedAtTheVerticesOfSplats)
 {
   const Surface surface = Extractor(Cloud()).extract();
   ASSERT_EQ(isopoint_make_splat_mesh(surface.get(), 1.0), ISOPOINT_OK);
-  const auto points = numbersOf<std::int64_t>(surface, ISOPOINT_SPLAT_VERTEX_POINTS);
+  const auto points = numbersOf<std::int64_t>(surface, ISOPOINT_ARRAY_SPLAT_VERTEX_POINTS);
   ASSERT_FALSE(points.empty());
-  std::vector<float> numbers(2 * numbersOf<double>(surface, ISOPOINT_ISOVALUES).size());
+  std::vector<float> numbers(2 * numbersOf<double>(surface, ISOPOINT_ARRAY_ISOVALUES).size());
   for (std::size_t i = 0; i < numbers.size(); i += 2)
   {
     numbers[i] = 3.5f;
@@ -1249,12 +1290,13 @@ TEST(Library, KeptSplatsYieldTheSameMesh)
   ASSERT_EQ(isopoint_make_splat_mesh(surface.get(), 0.9), ISOPOINT_OK);
   KeptSplats kept(surface);
   const Surface again = kept.mesh(0.9);
-  EXPECT_EQ(numbersOf<double>(again, ISOPOINT_SPLAT_VERTICES),
-    numbersOf<double>(surface, ISOPOINT_SPLAT_VERTICES));
-  const auto triangles = numbersOf<std::int64_t>(again, ISOPOINT_SPLAT_TRIANGLES);
-  EXPECT_EQ(triangles, numbersOf<std::int64_t>(surface, ISOPOINT_SPLAT_TRIANGLES));
+  EXPECT_EQ(numbersOf<double>(again, ISOPOINT_ARRAY_SPLAT_VERTICES),
+    numbersOf<double>(surface, ISOPOINT_ARRAY_SPLAT_VERTICES));
+  const auto triangles = numbersOf<std::int64_t>(again, ISOPOINT_ARRAY_SPLAT_TRIANGLES);
+  EXPECT_EQ(triangles, numbersOf<std::int64_t>(surface, ISOPOINT_ARRAY_SPLAT_TRIANGLES));
   ASSERT_FALSE(triangles.empty());
-  std::vector<float> means(3 * numbersOf<std::int64_t>(again, ISOPOINT_SPLAT_VERTEX_POINTS).size());
+  std::vector<float> means(
+    3 * numbersOf<std::int64_t>(again, ISOPOINT_ARRAY_SPLAT_VERTEX_POINTS).size());
   const isopoint_array normals = arrayOf(kept.normals, ISOPOINT_FLOAT, 3);
   EXPECT_EQ(isopoint_average_at_splat_vertices(again.get(), &normals, means.data()), ISOPOINT_OK);
 
@@ -1275,7 +1317,7 @@ TEST(Library, KeptSplatsThatAreNotFiniteAreNotDrawn)
   kept.normals[6] = static_cast<float>(nan);
   kept.axes[9] = static_cast<float>(infinity);
   kept.polygons[160] = static_cast<float>(nan);
-  const auto drawn = numbersOf<std::int64_t>(kept.mesh(1.0), ISOPOINT_SPLAT_VERTEX_POINTS);
+  const auto drawn = numbersOf<std::int64_t>(kept.mesh(1.0), ISOPOINT_ARRAY_SPLAT_VERTEX_POINTS);
   ASSERT_FALSE(drawn.empty());
   EXPECT_EQ(*std::min_element(drawn.begin(), drawn.end()), 5);
 }

@@ -28,7 +28,7 @@ from unittest import mock
 import numpy as np
 import scatteredisopoints
 from scatteredisopoints import (
-    Interpolator, Isosurface, Samples, _bodies, _library, _option_types, _options, contour, contouring, gradient,
+    Interpolator, Isosurface, Samples, _library, _option_types, _options, contour, contouring, gradient,
     probe)
 
 HEADER = pathlib.Path(__file__).parents[2] / "Library/isopoint.h"
@@ -64,12 +64,12 @@ class Signatures(unittest.TestCase):
     def test_structs(self):
         for struct, mirror in (("isopoint_array", _library.Array), ("isopoint_options", _library.Options),
                                ("isopoint_probe_options", _library.ProbeOptions),
-                               ("isopoint_probed", _library.Probed)):
+                               ("isopoint_probe_result", _library.Probed)):
             self.assertEqual(self.members(struct), list(mirror._fields_))
 
     def test_ids_of_arrays(self):
         body = re.search(r"typedef enum isopoint_array_id\s*{(.*?)}", self.text, re.DOTALL)[1]
-        ids = re.findall(r"ISOPOINT_(\w+) = (\d+)", body)
+        ids = re.findall(r"ISOPOINT_ARRAY_(\w+) = (\d+)", body)
         self.assertEqual(len(ids), 16)
         for name, number in ids:
             self.assertEqual(getattr(_library, name), int(number))
@@ -79,7 +79,7 @@ class Signatures(unittest.TestCase):
                  "PRECISION_INPUT": "DEFAULT_PRECISION"}
         found = {}
         for name, number in re.findall(
-                r"ISOPOINT_((?:PROJECTION_(?!ORDERS)|NORMALS_|PRECISION_|METHOD_)\w+) = (-?\d+)", self.text):
+                r"ISOPOINT_((?:PROJECTION_|NORMALS_|PRECISION_|METHOD_)\w+) = (-?\d+)", self.text):
             own = re.sub(r"^PROJECTION_(.*)", r"\1_FIT", re.sub(
                 r"^PRECISION_(.*)", r"\1_PRECISION", re.sub("^METHOD_", "", name)))
             found[names.get(name, own)] = int(number)
@@ -375,11 +375,12 @@ class Results(unittest.TestCase):
         with self.assertRaises(TypeError):
             Samples(positions, values).contour()
 
-    def test_option_types_name_all_options(self):
-        of_contour = {*_options.option_names(False), *_options.option_names(True), "gradient_direction"}
-        self.assertEqual({*_option_types.ContourOptions.__annotations__}, of_contour)
-        self.assertEqual({*_option_types.SliceOptions.__annotations__}, {*_options.OF_SLICES})
-        self.assertEqual({*_option_types.BodyOptions.__annotations__}, {*_bodies.OPTIONS})
+    def test_options_are_those_of_the_library(self):
+        of_python = {"compute_scalars", "gradient_direction", "keep_tree"}
+        of_library = {*_option_types.MEMBERS} - {"triangles", "keep_tetrahedra", "keep_hull_slivers"}
+        self.assertEqual({*_option_types.ContourOptions.__annotations__}, of_library | of_python)
+        self.assertEqual({*_options.option_names(False), *_options.option_names(True)},
+                         of_library | of_python - {"gradient_direction"})
         for function in (contour, scatteredisopoints.body, scatteredisopoints.slice_samples, Samples.contour):
             self.assertIn("options", typing.get_type_hints(function))
 

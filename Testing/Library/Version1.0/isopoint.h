@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #define ISOPOINT_VERSION "1.0.0"
+#define ISOPOINT_VERSION_NUMBER 10000
 #if defined(ISOPOINT_STATIC)
 #define ISOPOINT_API
 #elif defined(_WIN32)
@@ -56,26 +57,26 @@ typedef struct isopoint_array
   int64_t stride;
   int64_t component_stride;
 } isopoint_array;
-enum
+typedef enum isopoint_projection
 {
   ISOPOINT_PROJECTION_NONE = 0,
   ISOPOINT_PROJECTION_LINEAR = 1,
   ISOPOINT_PROJECTION_QUADRATIC = 2,
   ISOPOINT_PROJECTION_CUBIC = 3,
   ISOPOINT_PROJECTION_CREASE = 4
-};
-enum
+} isopoint_projection;
+typedef enum isopoint_normal_method
 {
   ISOPOINT_NORMALS_AUTOMATIC = -1,
   ISOPOINT_NORMALS_FROM_FIELD = 0,
   ISOPOINT_NORMALS_FROM_PLANES = 1
-};
-enum
+} isopoint_normal_method;
+typedef enum isopoint_precision
 {
   ISOPOINT_PRECISION_SINGLE = 0,
   ISOPOINT_PRECISION_DOUBLE = 1,
   ISOPOINT_PRECISION_INPUT = 2
-};
+} isopoint_precision;
 typedef struct isopoint_options
 {
   uint64_t size;
@@ -98,6 +99,7 @@ typedef struct isopoint_options
 } isopoint_options;
 ISOPOINT_API void isopoint_initialize_options(isopoint_options* options, size_t size);
 ISOPOINT_API const char* isopoint_version(void);
+ISOPOINT_API int32_t isopoint_version_number(void);
 ISOPOINT_API isopoint_extractor* isopoint_create_extractor(void);
 ISOPOINT_API void isopoint_destroy_extractor(isopoint_extractor* extractor);
 ISOPOINT_API const char* isopoint_get_error(void);
@@ -110,20 +112,20 @@ ISOPOINT_API isopoint_status isopoint_set_samples(isopoint_extractor* extractor,
 ISOPOINT_API int64_t isopoint_get_sample_count(const isopoint_extractor* extractor);
 ISOPOINT_API int64_t isopoint_get_skipped_count(const isopoint_extractor* extractor);
 ISOPOINT_API void isopoint_get_value_range(const isopoint_extractor* extractor, double range[2]);
-enum
+typedef enum isopoint_method
 {
   ISOPOINT_METHOD_BLEND = 0,
   ISOPOINT_METHOD_CUBIC = 1,
   ISOPOINT_METHOD_QUADRATIC = 2,
   ISOPOINT_METHOD_AFFINE = 3,
   ISOPOINT_METHOD_NEAREST = 4
-};
-enum
+} isopoint_method;
+typedef enum isopoint_outside
 {
   ISOPOINT_OUTSIDE_NUMBER = 0,
   ISOPOINT_OUTSIDE_NEAREST = 1,
   ISOPOINT_OUTSIDE_EXTRAPOLATE = 2
-};
+} isopoint_outside;
 typedef struct isopoint_probe_options
 {
   uint64_t size;
@@ -132,30 +134,35 @@ typedef struct isopoint_probe_options
   double outside_number;
 } isopoint_probe_options;
 ISOPOINT_API void isopoint_initialize_probe_options(isopoint_probe_options* options, size_t size);
-typedef struct isopoint_probed
+typedef struct isopoint_probe_result
 {
   void* values;
   double* gradients;
-} isopoint_probed;
-enum
+} isopoint_probe_result;
+typedef enum isopoint_place_flag
 {
   ISOPOINT_PLACE_OUTSIDE = 1,
   ISOPOINT_PLACE_FLAT = 2
-};
+} isopoint_place_flag;
 ISOPOINT_API isopoint_status isopoint_probe(isopoint_extractor* extractor,
   const isopoint_array* places, const isopoint_array* arrays, int64_t array_count,
-  const isopoint_probe_options* options, const isopoint_probed* results, uint8_t* kinds);
+  const isopoint_probe_options* options, const isopoint_probe_result* results, uint8_t* flags);
 typedef struct isopoint_neighborhoods isopoint_neighborhoods;
 ISOPOINT_API isopoint_status isopoint_find_neighborhoods(isopoint_extractor* extractor,
   const isopoint_array* places, const isopoint_probe_options* options,
   isopoint_neighborhoods** neighborhoods);
+ISOPOINT_API isopoint_status isopoint_set_neighborhoods_threads(
+  isopoint_neighborhoods* neighborhoods, int32_t threads);
+ISOPOINT_API isopoint_status isopoint_set_neighborhoods_callbacks(
+  isopoint_neighborhoods* neighborhoods, void (*progress)(void* user, double fraction),
+  int (*cancels)(void* user), void* user);
 ISOPOINT_API isopoint_status isopoint_probe_neighborhoods(
   const isopoint_neighborhoods* neighborhoods, const isopoint_array* arrays, int64_t array_count,
-  const isopoint_probed* results, uint8_t* kinds);
+  const isopoint_probe_result* results, uint8_t* flags);
 typedef struct isopoint_weights
 {
   int64_t row_count;
-  const int64_t* begins;
+  const int64_t* row_begins;
   const int64_t* samples;
   const double* values;
   const double* gradients;
@@ -173,16 +180,16 @@ ISOPOINT_API isopoint_status isopoint_set_surface_callbacks(isopoint_surface* su
   void (*progress)(void* user, double fraction), int (*cancels)(void* user), void* user);
 typedef enum isopoint_message_code
 {
-  ISOPOINT_SKIPPED_SAMPLES = 1,
-  ISOPOINT_NO_SAMPLES = 2,
-  ISOPOINT_CONSTANT_VALUES = 3,
-  ISOPOINT_ISOVALUE_OUTSIDE = 4,
-  ISOPOINT_TOO_FEW_SAMPLES = 5,
-  ISOPOINT_ALL_IN_GAPS = 6,
-  ISOPOINT_NO_CROSSING = 7,
-  ISOPOINT_POINTS_WITHOUT_FIT = 8,
-  ISOPOINT_SPLATS_APART = 9,
-  ISOPOINT_BEYOND_FLOAT = 10
+  ISOPOINT_MESSAGE_SKIPPED_SAMPLES = 1,
+  ISOPOINT_MESSAGE_NO_SAMPLES = 2,
+  ISOPOINT_MESSAGE_CONSTANT_VALUES = 3,
+  ISOPOINT_MESSAGE_ISOVALUE_OUTSIDE = 4,
+  ISOPOINT_MESSAGE_TOO_FEW_SAMPLES = 5,
+  ISOPOINT_MESSAGE_ALL_IN_GAPS = 6,
+  ISOPOINT_MESSAGE_NO_CROSSING = 7,
+  ISOPOINT_MESSAGE_POINTS_WITHOUT_FIT = 8,
+  ISOPOINT_MESSAGE_SPLATS_APART = 9,
+  ISOPOINT_MESSAGE_BEYOND_FLOAT = 10
 } isopoint_message_code;
 ISOPOINT_API const char* isopoint_get_message(
   const isopoint_surface* surface, int64_t index, int32_t* is_warning);
@@ -195,22 +202,22 @@ ISOPOINT_API int64_t isopoint_get_unprojected_count(const isopoint_surface* surf
 ISOPOINT_API int64_t isopoint_get_dropped_count(const isopoint_surface* surface);
 typedef enum isopoint_array_id
 {
-  ISOPOINT_POINTS = 0,
-  ISOPOINT_ISOVALUES = 1,
-  ISOPOINT_NORMALS = 2,
-  ISOPOINT_GRADIENTS = 3,
-  ISOPOINT_PROJECTION_ORDERS = 4,
-  ISOPOINT_EDGES = 5,
-  ISOPOINT_EDGE_PARAMETERS = 6,
-  ISOPOINT_TRIANGLES = 7,
-  ISOPOINT_RADII = 8,
-  ISOPOINT_SPLAT_AXES = 9,
-  ISOPOINT_SPLAT_POLYGONS = 10,
-  ISOPOINT_SPLAT_VERTICES = 11,
-  ISOPOINT_SPLAT_VERTEX_NORMALS = 12,
-  ISOPOINT_SPLAT_VERTEX_POINTS = 13,
-  ISOPOINT_SPLAT_TRIANGLES = 14,
-  ISOPOINT_CAPS = 15
+  ISOPOINT_ARRAY_POINTS = 0,
+  ISOPOINT_ARRAY_ISOVALUES = 1,
+  ISOPOINT_ARRAY_NORMALS = 2,
+  ISOPOINT_ARRAY_GRADIENTS = 3,
+  ISOPOINT_ARRAY_PROJECTION_ORDERS = 4,
+  ISOPOINT_ARRAY_EDGES = 5,
+  ISOPOINT_ARRAY_EDGE_PARAMETERS = 6,
+  ISOPOINT_ARRAY_TRIANGLES = 7,
+  ISOPOINT_ARRAY_RADII = 8,
+  ISOPOINT_ARRAY_SPLAT_AXES = 9,
+  ISOPOINT_ARRAY_SPLAT_POLYGONS = 10,
+  ISOPOINT_ARRAY_SPLAT_VERTICES = 11,
+  ISOPOINT_ARRAY_SPLAT_VERTEX_NORMALS = 12,
+  ISOPOINT_ARRAY_SPLAT_VERTEX_POINTS = 13,
+  ISOPOINT_ARRAY_SPLAT_TRIANGLES = 14,
+  ISOPOINT_ARRAY_CAPS = 15
 } isopoint_array_id;
 ISOPOINT_API isopoint_status isopoint_get_array(
   const isopoint_surface* surface, int32_t array_id, isopoint_array* array);
