@@ -6,8 +6,8 @@
  * vtkScatteredBodyFilter generates the surface of the body of all samples, from their positions
  * alone: neither an array nor a radius is needed. The body is the union of the tetrahedra of the
  * samples' Delaunay tetrahedralization that are not in gaps; docs/triangles.md in the source
- * distribution defines it. The surface is that of vtkScatteredIsosurfaceFilter with CappingOn() and
- * an isovalue of minus infinity.
+ * distribution defines it. With DropGapsOff() it is the convex hull. The surface is that of
+ * vtkScatteredIsosurfaceFilter with CappingOn() and an isovalue of minus infinity.
  *
  * The output is a vtkPolyData of triangles between samples, which have all arrays of the sample:
  * each edge has two triangles, each point one fan, and right-hand normals point outwards. The
@@ -27,34 +27,18 @@
 #ifndef vtkScatteredBodyFilter_h
 #define vtkScatteredBodyFilter_h
 
-#include "vtkScatteredAlgorithm.h"
 #include "vtkScatteredIsopointFiltersModule.h" // for the export macro
+#include "vtkScatteredSurfaceFilter.h"
 
 #include <memory> // for std::unique_ptr
 
 class vtkIsopointSlicing;
-class vtkPolyData;
 
-class VTKSCATTEREDISOPOINTFILTERS_EXPORT vtkScatteredBodyFilter : public vtkScatteredAlgorithm
+class VTKSCATTEREDISOPOINTFILTERS_EXPORT vtkScatteredBodyFilter : public vtkScatteredSurfaceFilter
 {
 public:
   static vtkScatteredBodyFilter* New();
-  vtkTypeMacro(vtkScatteredBodyFilter, vtkScatteredAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  /**
-   * The closed surface.
-   */
-  vtkPolyData* GetOutput();
-
-  ///@{
-  /**
-   * Whether the body ends in voids between samples. If off, it is their convex hull. Default: on.
-   */
-  vtkSetMacro(DropGaps, vtkTypeBool);
-  vtkGetMacro(DropGaps, vtkTypeBool);
-  vtkBooleanMacro(DropGaps, vtkTypeBool);
-  ///@}
+  vtkTypeMacro(vtkScatteredBodyFilter, vtkScatteredSurfaceFilter);
 
   ///@{
   /**
@@ -62,42 +46,22 @@ public:
    * ones, such as droplets, are left out; holes within others stay. From 0, for none, to 1.
    * Default: 0.
    */
-  vtkSetClampMacro(MinimumPieceSize, double, 0.0, 1.0);
-  vtkGetMacro(MinimumPieceSize, double);
+  virtual void SetMinimumPieceSize(double share);
+  virtual double GetMinimumPieceSize();
   ///@}
-
-  ///@{
-  /**
-   * The type of the output's points: vtkAlgorithm::SINGLE_PRECISION, DOUBLE_PRECISION, or
-   * DEFAULT_PRECISION, which is single if the points of all blocks are float. Other values are
-   * clamped. Default: DEFAULT_PRECISION.
-   */
-  vtkSetClampMacro(OutputPointsPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
-  vtkGetMacro(OutputPointsPrecision, int);
-  ///@}
-
-  /**
-   * The number of points that the last update made on all ranks, without ghosts.
-   */
-  vtkIdType GetNumberOfExtractedPoints() const;
 
 protected:
   vtkScatteredBodyFilter();
   ~vtkScatteredBodyFilter() override;
 
-  vtkSmartPointer<vtkDataObject> NewOutput(vtkInformationVector** inputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
-
-  vtkTypeBool DropGaps = true;
-  double MinimumPieceSize = 0.0;
-  int OutputPointsPrecision = DEFAULT_PRECISION;
 
 private:
   vtkScatteredBodyFilter(const vtkScatteredBodyFilter&) = delete;
   void operator=(const vtkScatteredBodyFilter&) = delete;
 
-  const isopoint::SampleCounts& GetSampleCounts() const override;
+  const isopoint::Report& GetReport() const override;
 
   const std::unique_ptr<vtkIsopointSlicing> Slicing; // by a function that is the same everywhere
 };

@@ -27,28 +27,19 @@
 #ifndef vtkScatteredContourFilter_h
 #define vtkScatteredContourFilter_h
 
-#include "vtkContourValues.h" // for inline methods
-#include "vtkNew.h"           // for the contour values
-#include "vtkScatteredAlgorithm.h"
 #include "vtkScatteredIsopointFiltersModule.h" // for the export macro
+#include "vtkScatteredSurfaceFilter.h"
 
 #include <memory> // for std::unique_ptr
 
 class vtkIsopointContouring;
-class vtkPolyData;
-struct vtkIsopointOptions;
 
-class VTKSCATTEREDISOPOINTFILTERS_EXPORT vtkScatteredContourFilter : public vtkScatteredAlgorithm
+class VTKSCATTEREDISOPOINTFILTERS_EXPORT vtkScatteredContourFilter
+  : public vtkScatteredSurfaceFilter
 {
 public:
-  vtkTypeMacro(vtkScatteredContourFilter, vtkScatteredAlgorithm);
+  vtkTypeMacro(vtkScatteredContourFilter, vtkScatteredSurfaceFilter);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  /**
-   * The surface; null if the output is a composite (see SetContourBlocks()).
-   */
-  vtkPolyData* GetOutput() { return this->GetOutput(0); }
-  vtkPolyData* GetOutput(int port);
 
   ///@{
   /**
@@ -161,27 +152,6 @@ public:
 
   ///@{
   /**
-   * Whether the surface ends at gaps between samples, as at voids or at the free surface of a
-   * fluid.
-   * - The spacing behind the end x of an edge {x, y} is the distance from x to the second nearest
-   *   sample position in a cone: within 54.7356 degrees (whose cosine is 1 / sqrt(3)) of the
-   *   direction from y to x. It is infinite if there are fewer than two.
-   * - An edge is weak if it is longer than twice the spacing behind both ends. It is strong if it
-   * is longer than four times that spacing, with the third nearest position instead of the second.
-   * - The isopoints of strong edges are dropped, and those of weak edges that a chain of weak edges
-   *   connects with a strong one. Consecutive edges of a chain share an end.
-   *
-   * Edges between a dense and a sparse region, to an isolated sample, and between lines or slices
-   * of samples stay. Closed surfaces amid samples stay closed. For triangles see
-   * vtkScatteredIsosurfaceFilter. Default: on.
-   */
-  virtual void SetDropGaps(vtkTypeBool drop);
-  virtual vtkTypeBool GetDropGaps();
-  vtkBooleanMacro(DropGaps, vtkTypeBool);
-  ///@}
-
-  ///@{
-  /**
    * Whether to compute the array "Normals" (three floats, the active normals): unit vectors towards
    * decreasing values, as in vtkContourFilter. See SetNormalMethod(). Default: on.
    */
@@ -202,17 +172,6 @@ public:
 
   ///@{
   /**
-   * The type of the output's points: vtkAlgorithm::SINGLE_PRECISION, DOUBLE_PRECISION, or
-   * DEFAULT_PRECISION, which is single if the points of all blocks are float, otherwise double (as
-   * for images, rectilinear grids and hyper tree grids). Computations are always in double
-   * precision. Other values are clamped. Default: DEFAULT_PRECISION.
-   */
-  virtual void SetOutputPointsPrecision(int precision);
-  virtual int GetOutputPointsPrecision();
-  ///@}
-
-  ///@{
-  /**
    * Whether to contour each block of a composite input separately. If on, the output is a composite
    * of the same structure with a vtkPolyData for each block that has the contoured array (for an
    * AMR, a vtkMultiBlockDataSet of levels); use GetOutputDataObject(0). If off, all blocks form one
@@ -226,11 +185,6 @@ public:
   ///@}
 
   /**
-   * The number of points that the last update extracted on all ranks, without ghosts.
-   */
-  vtkIdType GetNumberOfExtractedPoints() const;
-
-  /**
    * The number of points in the last output that no fit moved: with NO_PROJECTION all, otherwise
    * those without a fit. In noise most points move, if only by a little.
    */
@@ -242,11 +196,6 @@ public:
    */
   vtkIdType GetNumberOfDroppedInGaps() const;
 
-  /**
-   * The modification time, including that of the contour values.
-   */
-  vtkMTimeType GetMTime() override;
-
 protected:
   vtkScatteredContourFilter();
   ~vtkScatteredContourFilter() override;
@@ -255,14 +204,11 @@ protected:
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  vtkNew<vtkContourValues> ContourValues;
-  const std::unique_ptr<vtkIsopointOptions> Options; // the values of the properties here
-
 private:
   vtkScatteredContourFilter(const vtkScatteredContourFilter&) = delete;
   void operator=(const vtkScatteredContourFilter&) = delete;
 
-  const isopoint::SampleCounts& GetSampleCounts() const override;
+  const isopoint::Report& GetReport() const override;
 
   std::unique_ptr<vtkIsopointContouring> Contouring;
 };

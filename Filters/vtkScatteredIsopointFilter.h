@@ -25,8 +25,20 @@
  * gradient of the polynomial, or in noise of a simpler one, gives the normal. Values of integer
  * arrays are taken as rounded, so that steps of 1 are not fitted as detail. Fits only depend on
  * samples in the regions that touch those of the edge's ends, and in regions that touch these.
- * Projection and the gap criterion (see SetDropGaps()) are not part of [RL06]. docs/algorithm.md in
- * the source distribution defines the result exactly.
+ * Projection and the gap criterion are not part of [RL06]. docs/algorithm.md in the source
+ * distribution defines the result exactly.
+ *
+ * The gap criterion (see SetDropGaps()) drops isopoints by their edges:
+ * - The spacing behind the end x of an edge {x, y} is the distance from x to the second nearest
+ *   sample position in a cone: within 54.7356 degrees (whose cosine is 1 / sqrt(3)) of the
+ *   direction from y to x. It is infinite if there are fewer than two.
+ * - An edge is weak if it is longer than twice the spacing behind both ends. It is strong if it is
+ *   longer than four times that spacing, with the third nearest position instead of the second.
+ * - The isopoints of strong edges are dropped, and those of weak edges that a chain of weak edges
+ *   connects with a strong one. Consecutive edges of a chain share an end.
+ *
+ * Edges between a dense and a sparse region, to an isolated sample, and between lines or slices of
+ * samples stay. Closed surfaces amid samples stay closed.
  *
  * The filter guarantees:
  * 1. The output, including the order of the points, depends only on the input and the options, to

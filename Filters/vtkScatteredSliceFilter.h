@@ -9,7 +9,8 @@
  * tetrahedralization, as vtkScatteredIsosurfaceFilter extracts it, and ends where the samples end.
  * Samples on the slice count as above it: without samples below, such as on the first layer of a
  * lattice, it is empty.
- * docs/triangles.md in the source distribution defines it.
+ * docs/triangles.md in the source distribution defines it, and where it ends with DropGapsOn():
+ * a full convex body keeps its whole section.
  *
  * Samples are the points of the input, the centers of its cells if it has arrays of cells only, or
  * the leaves of hyper tree grids, of all blocks. Which are skipped, and the guarantees on threads,
@@ -33,29 +34,21 @@
 #ifndef vtkScatteredSliceFilter_h
 #define vtkScatteredSliceFilter_h
 
-#include "vtkContourValues.h" // for inline methods
-#include "vtkNew.h"           // for the offsets
-#include "vtkScatteredAlgorithm.h"
 #include "vtkScatteredIsopointFiltersModule.h" // for the export macro
-#include "vtkSmartPointer.h"                   // for the function
+#include "vtkScatteredSurfaceFilter.h"
+#include "vtkSmartPointer.h" // for the function
 
 #include <memory> // for std::unique_ptr
 
 class vtkImplicitFunction;
 class vtkIsopointSlicing;
-class vtkPolyData;
 
-class VTKSCATTEREDISOPOINTFILTERS_EXPORT vtkScatteredSliceFilter : public vtkScatteredAlgorithm
+class VTKSCATTEREDISOPOINTFILTERS_EXPORT vtkScatteredSliceFilter : public vtkScatteredSurfaceFilter
 {
 public:
   static vtkScatteredSliceFilter* New();
-  vtkTypeMacro(vtkScatteredSliceFilter, vtkScatteredAlgorithm);
+  vtkTypeMacro(vtkScatteredSliceFilter, vtkScatteredSurfaceFilter);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  /**
-   * The slice.
-   */
-  vtkPolyData* GetOutput();
 
   ///@{
   /**
@@ -113,35 +106,10 @@ public:
    * Whether to merge points and flip edges, so that triangles are well shaped; see
    * vtkScatteredIsosurfaceFilter. Default: on.
    */
-  vtkSetMacro(Regularize, vtkTypeBool);
-  vtkGetMacro(Regularize, vtkTypeBool);
+  virtual void SetRegularize(vtkTypeBool regularize);
+  virtual vtkTypeBool GetRegularize();
   vtkBooleanMacro(Regularize, vtkTypeBool);
   ///@}
-
-  ///@{
-  /**
-   * Whether the slice ends in voids between samples. A full convex body keeps its whole section.
-   * See docs/triangles.md. If off, the slice is that of the samples' convex hull. Default: on.
-   */
-  vtkSetMacro(DropGaps, vtkTypeBool);
-  vtkGetMacro(DropGaps, vtkTypeBool);
-  vtkBooleanMacro(DropGaps, vtkTypeBool);
-  ///@}
-
-  ///@{
-  /**
-   * The type of the output's points: vtkAlgorithm::SINGLE_PRECISION, DOUBLE_PRECISION, or
-   * DEFAULT_PRECISION, which is single if the points of all blocks are float. Other values are
-   * clamped. Default: DEFAULT_PRECISION.
-   */
-  vtkSetClampMacro(OutputPointsPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
-  vtkGetMacro(OutputPointsPrecision, int);
-  ///@}
-
-  /**
-   * The number of points that the last update made on all ranks, without ghosts.
-   */
-  vtkIdType GetNumberOfExtractedPoints() const;
 
   /**
    * The modification time, including those of the function and of its values.
@@ -152,22 +120,17 @@ protected:
   vtkScatteredSliceFilter();
   ~vtkScatteredSliceFilter() override;
 
-  vtkSmartPointer<vtkDataObject> NewOutput(vtkInformationVector** inputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
   vtkSmartPointer<vtkImplicitFunction> CutFunction;
-  vtkNew<vtkContourValues> ContourValues;
   int Interpolation = FITS;
-  vtkTypeBool Regularize = true;
-  vtkTypeBool DropGaps = true;
-  int OutputPointsPrecision = DEFAULT_PRECISION;
 
 private:
   vtkScatteredSliceFilter(const vtkScatteredSliceFilter&) = delete;
   void operator=(const vtkScatteredSliceFilter&) = delete;
 
-  const isopoint::SampleCounts& GetSampleCounts() const override;
+  const isopoint::Report& GetReport() const override;
 
   const std::unique_ptr<vtkIsopointSlicing> Slicing;
 };

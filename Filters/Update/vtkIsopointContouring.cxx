@@ -11,7 +11,6 @@
 
 #include "vtkCellArray.h"
 #include "vtkCompositeDataSet.h"
-#include "vtkContourValues.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
@@ -78,9 +77,7 @@ void vtkIsopointContouring::Extract(
   this->Options.Core.keepTetrahedra = this->Update.KeepsTrees() && !this->Options.ContourBlocks;
   vtkDataObject* const input = vtkDataObject::GetData(inputInfo);
   vtkDataObject* const output = vtkDataObject::GetData(outputInfo);
-  vtkContourValues* const values = this->Options.ContourValues;
-  const std::vector<double> isovalues = isopoint::sortedIsovalues(
-    { values->GetValues(), values->GetValues() + values->GetNumberOfContours() });
+  const std::vector<double> isovalues = isopoint::sortedIsovalues(this->Options.GetValues());
   const vtkIsopointArrayChoice array(inputArray);
   isopoint::checkOptions(this->Options.Core);
   this->Update.CheckOptionsOnRanks(textOf(this->Options, isovalues, array), "contour");

@@ -4,14 +4,21 @@
 
 #include "Core/Options.h"
 
+#include "vtkContourValues.h"
+
 #include <algorithm>
 #include <type_traits>
+#include <vector>
 
-class vtkContourValues;
-
-/// The properties of a contour filter besides vtkIsopointSettings.
+/// The properties of a filter that makes surfaces, besides vtkIsopointSettings.
 struct vtkIsopointOptions
 {
+  std::vector<double> GetValues() const
+  {
+    double* const values = this->ContourValues->GetValues();
+    return { values, values + this->ContourValues->GetNumberOfContours() };
+  }
+
   isopoint::Options Core;
   vtkContourValues* ContourValues = nullptr; // of the filter
   bool ComputeScalars = true;

@@ -42,7 +42,7 @@ std::string textOf(const vtkIsopointSlicing::Options& options)
 {
   std::ostringstream text;
   text << std::hexfloat << (options.Method ? static_cast<int>(*options.Method) : -1);
-  for (const double offset : options.Offsets)
+  for (const double offset : options.GetValues())
   {
     text << " " << offset + 0.0;
   }
@@ -119,6 +119,16 @@ vtkIsopointSlicing::vtkIsopointSlicing(vtkIsopointUpdate& update)
 
 vtkIsopointSlicing::~vtkIsopointSlicing() = default;
 
+isopoint::Options vtkIsopointSlicing::OptionsOfCore()
+{
+  isopoint::Options options;
+  options.triangles = true;
+  options.projection = 0;
+  options.computeNormals = false;
+  options.computeSplats = false;
+  return options;
+}
+
 void vtkIsopointSlicing::Run(
   const Options& options, vtkInformation* inputInfo, vtkInformation* outputInfo)
 {
@@ -140,8 +150,9 @@ void vtkIsopointSlicing::Run(
 }
 
 void vtkIsopointSlicing::Slice(
-  const Options& options, vtkInformation* inputInfo, vtkInformation* outputInfo)
+  Options options, vtkInformation* inputInfo, vtkInformation* outputInfo)
 {
+  options.Core.keepTetrahedra = this->Update.KeepsTrees();
   if (!options.Function && !this->IsBody)
   {
     throw isopoint::UsageError("There is no cut function. Set a plane or another one.");
@@ -153,7 +164,7 @@ void vtkIsopointSlicing::Slice(
   const int ghostLevels = this->Update.GetGhostLevels(outputInfo);
 
   vtkIsopointCloud& cloud = this->Load(cut, inputInfo);
-  std::vector<double> isovalues = options.Offsets;
+  std::vector<double> isovalues = options.GetValues();
   std::transform(isovalues.begin(), isovalues.end(), isovalues.begin(),
     [&](double offset) { return cut.GetLevel() + offset; });
   this->Report = isopoint::Report(options.Core, isopoint::sortedIsovalues(isovalues));

@@ -3,10 +3,10 @@
 #define vtkIsopointSlicing_h
 
 #include "Core/ExtractionRequest.h"
-#include "Core/Options.h"
 #include "Core/Places/ProbeRequest.h"
 #include "Core/Report.h"
 #include "Input/vtkIsopointInputState.h"
+#include "Update/vtkIsopointOptions.h"
 
 #include "vtkSmartPointer.h"
 
@@ -29,14 +29,15 @@ struct vtkIsopointCloud;
 class vtkIsopointSlicing
 {
 public:
-  /// What to slice.
-  struct Options
+  /// What to slice. With capping, Function is null.
+  struct Options : vtkIsopointOptions
   {
-    isopoint::Options Core; // of the triangles; with capping, Function is null
-    vtkSmartPointer<vtkImplicitFunction> Function;
-    std::vector<double> Offsets;                 // values of the function
-    std::optional<isopoint::PlaceMethod> Method; // of arrays; none: linear along edges
+    vtkSmartPointer<vtkImplicitFunction> Function{};
+    std::optional<isopoint::PlaceMethod> Method{}; // of arrays; none: linear along edges
   };
+
+  /// Of triangles with points on edges, without normals.
+  static isopoint::Options OptionsOfCore();
 
   /// @param update of the filter; must outlive this
   explicit vtkIsopointSlicing(vtkIsopointUpdate& update);
@@ -49,7 +50,7 @@ public:
   const isopoint::Report& GetReport() const { return this->Report; }
 
 private:
-  void Slice(const Options& options, vtkInformation* inputInfo, vtkInformation* outputInfo);
+  void Slice(Options options, vtkInformation* inputInfo, vtkInformation* outputInfo);
   void CheckValues(const vtkIsopointCloud& cloud) const;
   void CheckFunctionOnRanks(const vtkIsopointCut& cut, const vtkIsopointCloud& cloud);
   vtkIsopointCloud& Load(const vtkIsopointCut& cut, vtkInformation* inputInfo);

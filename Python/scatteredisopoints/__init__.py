@@ -40,7 +40,7 @@ _MODULES = {
                      "vtkScatteredLineFilter", "vtkScatteredProbeFilter", "vtkScatteredSliceFilter"),
                     (*_COMPILED, "_vtk")),
     **dict.fromkeys(("vtkIsopointPolygonMapper", "vtkIsopointRayTracer", "vtkIsopointSplatMapper",
-                     "vtkScatteredAlgorithm", "vtkScatteredContourFilter"), _COMPILED)}
+                     "vtkScatteredAlgorithm", "vtkScatteredContourFilter", "vtkScatteredSurfaceFilter"), _COMPILED)}
 
 if TYPE_CHECKING:
     ray_trace: Any
@@ -58,6 +58,7 @@ if TYPE_CHECKING:
     vtkScatteredLineFilter: Any
     vtkScatteredProbeFilter: Any
     vtkScatteredSliceFilter: Any
+    vtkScatteredSurfaceFilter: Any
 else:
     def __getattr__(name):
         if name == "__all__":
