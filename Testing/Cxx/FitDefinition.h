@@ -7,10 +7,10 @@
 
 #include <Eigen/Dense>
 
-/// Fits as docs/algorithm.md defines them in 10.2 to 10.4, written down plainly and independently
-/// of the core: least squares by Householder's QR of the whole design, residuals of samples left
-/// out and effects of values by fitting again. Equal to the core's except for rounding, since sums
-/// are taken in other orders.
+/// The definition of fits, which docs/algorithm.md outlines in 10.2 to 10.4, independent of the
+/// core: least squares by Householder's QR of the whole design, residuals of samples left out and
+/// effects of values by fitting again. Equal to the core's except for rounding, since sums are
+/// taken in other orders.
 namespace fitdefinition
 {
 
@@ -20,7 +20,7 @@ using Samples = std::vector<FitSample>;
 using Weights = std::vector<double>;
 using Powers = std::array<int, 3>; // of x, y, z
 
-/// The powers that coefficients belong to, in the order of 10.3.
+/// The powers that coefficients belong to, in the core's order.
 constexpr std::array<Powers, 20> allPowers{ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 },
   { 2, 0, 0 }, { 0, 2, 0 }, { 0, 0, 2 }, { 1, 1, 0 }, { 1, 0, 1 }, { 0, 1, 1 }, { 3, 0, 0 },
   { 0, 3, 0 }, { 0, 0, 3 }, { 2, 1, 0 }, { 2, 0, 1 }, { 1, 2, 0 }, { 0, 2, 1 }, { 1, 0, 2 },

@@ -5,9 +5,9 @@
 
 #include <Eigen/Dense>
 
-/// Values at places as docs/algorithm.md defines them in section 13, written down plainly and
-/// independently of the core: all samples sorted by distance, and normal equations in long double.
-/// Equal to the core's except for rounding.
+/// The definition of values at places, which docs/algorithm.md outlines in section 13, independent
+/// of the core: all samples sorted by distance, and normal equations in long double. Equal to the
+/// core's except for rounding.
 namespace placedefinition
 {
 

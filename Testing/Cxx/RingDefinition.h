@@ -6,8 +6,8 @@
 #include "Core/Base/Vector.h"
 #include "Core/Fit/LocalFit.h"
 
-/// The samples around edges, and their spacing, as docs/algorithm.md defines them in 10.1: from all
-/// pairs of cells, independently of the core. Quadratic.
+/// The definition of the samples around edges, and of their spacing, which docs/algorithm.md
+/// outlines in 10.1: from all pairs of cells, independently of the core. Quadratic.
 namespace ringdefinition
 {
 
