@@ -215,4 +215,57 @@ inline std::vector<vtkSmartPointer<vtkDataSet>> everyGrid(double spacing = 0.25)
     explicitOf(image), newImage<vtkUniformGrid>({ 8, 7, 6 }, spacing) };
 }
 
+/// Calls visit(samples, cloud) with the array "f" at the points, and at the cells, of every grid,
+/// and with a cloud of the same samples.
+template <class Visit>
+void forEachGridAndCloud(const Visit& visit)
+{
+  for (const vtkSmartPointer<vtkDataSet>& grid : everyGrid())
+  {
+    SCOPED_TRACE(grid->GetClassName());
+    for (const int association : { ofPoints, ofCells })
+    {
+      const vtkSmartPointer<vtkDataSet> samples =
+        vtkSmartPointer<vtkDataSet>::Take(grid->NewInstance());
+      samples->CopyStructure(grid);
+      addField(samples, association);
+      visit(samples, cloudOf(samplesOf(grid, association)));
+    }
+  }
+}
+
+/// newCloud() with samples to skip at its end: a duplicate at `first`, and hidden points behind it.
+inline vtkSmartPointer<vtkPolyData> newCloudWithGhosts(
+  vtkIdType count, vtkIdType first, int pointType = VTK_FLOAT)
+{
+  const auto cloud = newCloud(count, pointType);
+  cloud->GetPointData()->AddArray(ghostsOf(
+    count, [&](vtkIdType i) { return i < first    ? 0
+                                     : i == first ? duplicatePoint
+                                                  : hiddenPoint; }));
+  return cloud;
+}
+
+/// Updates a filter of surfaces without an error.
+inline vtkPolyData* updated(vtkScatteredSurfaceFilter* filter)
+{
+  const auto errors = watchErrors(filter);
+  filter->Update();
+  EXPECT_EQ(errors->count(), 0u) << errors->last();
+  EXPECT_EQ(filter->GetErrorCode(), 0u);
+  return filter->GetOutput();
+}
+
+/// Expects the surface of a new filter, of more than so many numbers, and that it is kept.
+inline void expectAsNew(
+  vtkScatteredSurfaceFilter* filter, vtkScatteredSurfaceFilter* fresh, std::size_t least)
+{
+  const std::vector<double> all = everythingOf(updated(filter));
+  EXPECT_GT(all.size(), least);
+  EXPECT_EQ(all, everythingOf(updated(fresh)));
+  const vtkMTimeType time = filter->GetOutput()->GetMTime();
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetMTime(), time);
+}
+
 } // namespace inputtesting

@@ -27,16 +27,6 @@ vtkSmartPointer<Body> bodyOf(vtkDataObject* samples)
   return filter;
 }
 
-/// Updates without an error.
-vtkPolyData* updated(Body* filter)
-{
-  const auto errors = watchErrors(filter);
-  filter->Update();
-  EXPECT_EQ(errors->count(), 0u) << errors->last();
-  EXPECT_EQ(filter->GetErrorCode(), 0u);
-  return filter->GetOutput();
-}
-
 /// Six times the volume, after checking that each edge has two triangles in opposite directions.
 double sixVolumesOf(vtkPolyData* surface)
 {
@@ -66,31 +56,18 @@ double sixVolumesOf(vtkPolyData* surface)
 
 TEST(BodyFilter, SamplesOfEveryKindAreOneCloud)
 {
-  for (const vtkSmartPointer<vtkDataSet>& grid : everyGrid())
-  {
-    SCOPED_TRACE(grid->GetClassName());
-    for (const int association : { ofPoints, ofCells })
+  forEachGridAndCloud(
+    [](vtkDataSet* samples, vtkPolyData* cloud)
     {
-      const vtkSmartPointer<vtkDataSet> samples =
-        vtkSmartPointer<vtkDataSet>::Take(grid->NewInstance());
-      samples->CopyStructure(grid);
-      addField(samples, association);
       const auto filter = bodyOf(samples);
       EXPECT_GT(sixVolumesOf(updated(filter)), 0.0);
-      EXPECT_EQ(everythingOf(filter->GetOutput()),
-        everythingOf(updated(bodyOf(cloudOf(samplesOf(grid, association))))));
-    }
-  }
+      EXPECT_EQ(everythingOf(filter->GetOutput()), everythingOf(updated(bodyOf(cloud))));
+    });
   const auto cloud = newCloud(2000, VTK_DOUBLE);
   const auto blocks = blocksOf({ everyNth(cloud, 0, 2), nullptr, everyNth(cloud, 1, 2) });
   EXPECT_EQ(
     updated(bodyOf(blocks))->GetNumberOfPolys(), updated(bodyOf(cloud))->GetNumberOfPolys());
-  const auto filter = bodyOf(newCloud(1002));
-  vtkPolyData* const more = vtkPolyData::SafeDownCast(filter->GetInput());
-  more->GetPointData()->AddArray(ghostsOf(
-    1002, [](vtkIdType i) { return i < 1000    ? 0
-                                   : i == 1000 ? duplicatePoint
-                                               : hiddenPoint; }));
+  const auto filter = bodyOf(newCloudWithGhosts(1002, 1000));
   updated(filter);
   EXPECT_EQ(filter->GetNumberOfSamples(), 1002);
   EXPECT_EQ(filter->GetNumberOfSkippedSamples(), 2);
@@ -132,12 +109,7 @@ TEST(BodyFilter, FollowsSamplesAndOptions)
   {
     const auto fresh = bodyOf(cloud);
     fresh->SetDropGaps(filter->GetDropGaps());
-    const std::vector<double> all = everythingOf(updated(filter));
-    EXPECT_GT(all.size(), 100u);
-    EXPECT_EQ(all, everythingOf(updated(fresh)));
-    const vtkMTimeType time = filter->GetOutput()->GetMTime();
-    filter->Update();
-    EXPECT_EQ(filter->GetOutput()->GetMTime(), time);
+    expectAsNew(filter, fresh, 100);
   };
   expectNew();
   move(cloud->GetPoints(),

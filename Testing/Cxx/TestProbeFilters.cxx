@@ -122,22 +122,11 @@ std::vector<std::string> namesOf(vtkDataSetAttributes* attributes)
 TEST(ProbeFilters, SamplesOfEveryKindAreOneCloud)
 {
   const auto places = newPlaces();
-  for (const vtkSmartPointer<vtkDataSet>& grid : everyGrid())
-  {
-    SCOPED_TRACE(grid->GetClassName());
-    for (const int association : { ofPoints, ofCells })
-    {
-      const vtkSmartPointer<vtkDataSet> samples =
-        vtkSmartPointer<vtkDataSet>::Take(grid->NewInstance());
-      samples->CopyStructure(grid);
-      addField(samples, association);
-      EXPECT_EQ(probed(samples, places), probed(cloudOf(samplesOf(grid, association)), places));
-    }
-  }
+  forEachGridAndCloud([&](vtkDataSet* samples, vtkPolyData* cloud)
+    { EXPECT_EQ(probed(samples, places), probed(cloud, places)); });
   // Blocks, one null and one no data set; ghosts; positions that are not finite.
   const auto cloud = newCloud(1000, VTK_DOUBLE);
   const auto expected = probed(cloud, places, "distance");
-  const auto first = newCloud(1000, VTK_DOUBLE);
   const auto all = blocksOf(
     { everyNth(cloud, 0, 2), nullptr, vtkSmartPointer<vtkTable>::New(), everyNth(cloud, 1, 2) });
   const auto inOrder = newCloud(1000, VTK_DOUBLE);
@@ -148,11 +137,7 @@ TEST(ProbeFilters, SamplesOfEveryKindAreOneCloud)
     inOrder->GetPointData()->SetTuple(i, from, cloud->GetPointData());
   }
   EXPECT_EQ(probed(all, places, "distance"), probed(inOrder, places, "distance"));
-  const auto more = newCloud(1003, VTK_DOUBLE);
-  more->GetPointData()->AddArray(ghostsOf(
-    1003, [](vtkIdType i) { return i < 1000    ? 0
-                                   : i == 1000 ? duplicatePoint
-                                               : hiddenPoint; }));
+  const auto more = newCloudWithGhosts(1003, 1000, VTK_DOUBLE);
   more->GetPoints()->SetPoint(1002, infinity, 0.0, 0.0);
   EXPECT_EQ(probed(more, places, "distance"), expected);
 }

@@ -45,16 +45,6 @@ vtkSmartPointer<Slice> sliceOf(vtkDataObject* samples, vtkImplicitFunction* func
   return filter;
 }
 
-/// Updates without an error.
-vtkPolyData* updated(Slice* filter)
-{
-  const auto errors = watchErrors(filter);
-  filter->Update();
-  EXPECT_EQ(errors->count(), 0u) << errors->last();
-  EXPECT_EQ(filter->GetErrorCode(), 0u);
-  return filter->GetOutput();
-}
-
 std::vector<double> sliced(vtkDataObject* samples, vtkImplicitFunction* function)
 {
   return everythingOf(updated(sliceOf(samples, function)));
@@ -66,23 +56,16 @@ TEST(SliceFilter, SamplesOfEveryKindAreOneCloud)
 {
   vtkNew<vtkPlane> plane;
   plane->SetNormal(1.0, 2.0, 3.0);
-  for (const vtkSmartPointer<vtkDataSet>& grid : everyGrid())
-  {
-    SCOPED_TRACE(grid->GetClassName());
-    plane->SetOrigin(grid->GetCenter());
-    for (const int association : { ofPoints, ofCells })
+  forEachGridAndCloud(
+    [&](vtkDataSet* samples, vtkPolyData* cloud)
     {
-      const vtkSmartPointer<vtkDataSet> samples =
-        vtkSmartPointer<vtkDataSet>::Take(grid->NewInstance());
-      samples->CopyStructure(grid);
-      addField(samples, association);
+      plane->SetOrigin(samples->GetCenter());
       const auto filter = sliceOf(samples, plane);
       filter->SetOutputPointsPrecision(Slice::DOUBLE_PRECISION);
       const std::vector<double> all = everythingOf(updated(filter));
       EXPECT_GT(all.size(), 100u);
-      EXPECT_EQ(all, sliced(cloudOf(samplesOf(grid, association)), plane));
-    }
-  }
+      EXPECT_EQ(all, sliced(cloud, plane));
+    });
   const auto cloud = newCloud(2000, VTK_DOUBLE);
   const auto blocks = blocksOf({ everyNth(cloud, 0, 2), nullptr, everyNth(cloud, 1, 2) });
   vtkNew<vtkSphere> sphere;
@@ -95,12 +78,7 @@ TEST(SliceFilter, SamplesOfEveryKindAreOneCloud)
     EXPECT_EQ(updated(sliceOf(blocks, function))->GetNumberOfPoints(),
       updated(sliceOf(cloud, function))->GetNumberOfPoints());
   }
-  const auto filter = sliceOf(newCloud(1002), planeAt(0.0));
-  vtkPolyData* const more = vtkPolyData::SafeDownCast(filter->GetInput());
-  more->GetPointData()->AddArray(ghostsOf(
-    1002, [](vtkIdType i) { return i < 1000    ? 0
-                                   : i == 1000 ? duplicatePoint
-                                               : hiddenPoint; }));
+  const auto filter = sliceOf(newCloudWithGhosts(1002, 1000), planeAt(0.0));
   updated(filter);
   EXPECT_EQ(filter->GetNumberOfSamples(), 1002);
   EXPECT_EQ(filter->GetNumberOfSkippedSamples(), 2);
@@ -300,12 +278,7 @@ TEST(SliceFilter, FollowsFunctionOffsetsAndSamples)
   {
     const auto fresh = sliceOf(cloud, filter->GetCutFunction());
     fresh->SetValue(0, filter->GetValue(0));
-    const std::vector<double> all = everythingOf(updated(filter));
-    EXPECT_GT(all.size(), 1000u);
-    EXPECT_EQ(all, everythingOf(updated(fresh)));
-    const vtkMTimeType time = filter->GetOutput()->GetMTime();
-    filter->Update();
-    EXPECT_EQ(filter->GetOutput()->GetMTime(), time);
+    expectAsNew(filter, fresh, 1000);
   };
   expectNew();
   plane->SetOrigin(0.3, 0.2, 0.1); // along the normal

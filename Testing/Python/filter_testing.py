@@ -117,6 +117,18 @@ class FilterTests:
         for word in words:
             self.assertIn(word, texts[0])
 
+    def assert_pieces(self, filter_):
+        """Together they are the whole, of an updated filter of surfaces."""
+        whole = filter_.GetOutput().GetNumberOfCells()
+        counts = []
+        for piece in range(3):
+            filter_.UpdatePiece(piece, 3, 0)
+            counts.append(filter_.GetOutput().GetNumberOfCells())
+        is_whole = self.differs("Each piece of isosurfaces and slices is the whole.")
+        np.testing.assert_allclose(counts, [whole if is_whole else whole / 3] * 3, atol=1)
+        filter_.UpdatePiece(0, 1, 0)
+        self.assertEqual(filter_.GetOutput().GetNumberOfCells(), whole)
+
     def blocks(self):
         """Adjacent blocks of several kinds; two of them have the points of a shared face."""
         boxes = [set_all(image(4), Origin=origin) for origin in (3 * (-1.0,), (0.0, -1.0, -1.0), (-1.0, 0.0, -1.0))]
