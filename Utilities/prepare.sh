@@ -38,7 +38,7 @@ if [[ $preset == vtk* ]]; then
   package_lists+=(Utilities/debian-packages-vtk.txt)
 elif [[ $preset != library && $preset != wheel ]]; then
   release=$(. /etc/os-release && echo "${VERSION_ID-sid}")
-  package_lists+=("Utilities/debian-packages-paraview-$release.txt")
+  package_lists+=(Utilities/debian-packages-paraview{,"-$release"}.txt)
 fi
 if [[ -f Utilities/debian-packages-$preset.txt && $preset != vtk ]]; then
   package_lists+=("Utilities/debian-packages-$preset.txt")

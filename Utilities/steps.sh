@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Sourced: prints the steps of scripts.
+# Sourced: what scripts have in common.
 
 # step TITLE COMMAND...: prints the title, runs the command, and prints its seconds.
 step()
@@ -9,4 +9,18 @@ step()
   echo "== $title"
   "$@"
   echo "== $title: $((SECONDS - start)) s"
+}
+
+# expect_debian_11 ARGUMENT...: exits with the script's usage() if that is asked for, without arguments, and
+# unless this is root in Debian 11.
+expect_debian_11()
+{
+  if [[ ${1-} == --help ]]; then
+    usage
+    exit
+  fi
+  if (($# == 0)) || ((EUID != 0)) || [[ $(. /etc/os-release && echo "${VERSION_ID-}") != 11 ]]; then
+    usage >&2
+    exit 2
+  fi
 }

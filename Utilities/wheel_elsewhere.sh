@@ -14,19 +14,12 @@ brings. Platforms: win_amd64, macosx_11_0_arm64, macosx_10_15_x86_64.
 END
 }
 
-if [[ ${1-} == --help ]]; then
-  usage
-  exit
-fi
-if (($# == 0)) || ((EUID != 0)) || [[ $(. /etc/os-release && echo "${VERSION_ID-}") != 11 ]]; then
-  usage >&2
-  exit 2
-fi
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source Utilities/steps.sh
+expect_debian_11 "$@"
 shopt -s extglob
 root=$(dirname "$PWD")
 export folder=$root/elsewhere onetbb=$root/oneTBB
-source Utilities/steps.sh
 source Utilities/zig.sh
 linux_wheel=$(echo dist/*manylinux*_x86_64.whl)
 

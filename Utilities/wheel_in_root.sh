@@ -13,17 +13,10 @@ oneTBB are those of Debian 13. The folder above this source is for what is built
 END
 }
 
-if [[ ${1-} == --help ]]; then
-  usage
-  exit
-fi
-if (($# == 0)) || ((EUID != 0)) || [[ $(. /etc/os-release && echo "${VERSION_ID-}") != 11 ]]; then
-  usage >&2
-  exit 2
-fi
 architectures=("$@")
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source Utilities/steps.sh
+expect_debian_11 "$@"
 folder=$(dirname "$PWD")
 debian_13=$folder/debian-13
 export DEBIAN_FRONTEND=noninteractive PIP_DISABLE_PIP_VERSION_CHECK=1
