@@ -90,7 +90,7 @@ ExtractedIsosurface findTriangles(const Execution& execution, SampleCloud<TSampl
     const Isosurface& surface = result.surface;
     result.normals =
       vertexNormals(execution, { surface.positions, surface.decreasingEdges, surface.fits },
-        result.triangles, request.splats->fieldNormals);
+        result.triangles, request.splats->fieldNormals, request.isosurface.caps);
   }
   return result;
 }

@@ -69,21 +69,27 @@ void checkOptions(const Options& options, OptionNaming naming)
         throw UsageError(message.str(), UsageError::Option);
       }
     });
-  if (options.triangles && options.capping &&
-      options.projection == static_cast<int>(FitOrder::Crease))
+  const auto refuse = [&](const std::string& lacking, const auto& option, const char* remedy)
   {
-    throw UsageError(naming(option::capping.name) + " has no creases: set " +
-                       naming(option::projection.name) + " to the cubic fit, 3, or less.",
+    throw UsageError(naming(option::capping.name) + " has no " + lacking + ". Set " +
+                       naming(option.name) + " " + remedy + ".",
       UsageError::Option);
+  };
+  if (!options.triangles || !options.capping)
+  {
+    return;
   }
-  if (options.triangles && options.capping &&
-      (options.computeGradients || options.normalMethod == static_cast<int>(NormalMethod::Field)))
+  if (options.projection == static_cast<int>(FitOrder::Crease))
   {
-    throw UsageError(naming(option::capping.name) + " has no gradients: set " +
-                       naming(option::computeGradients.name) + " off and " +
-                       naming(option::normalMethod.name) +
-                       " to planes, and compute gradients at the samples.",
-      UsageError::Option);
+    refuse("creases", option::projection, "to the cubic fit, or to a simpler one");
+  }
+  if (options.computeGradients)
+  {
+    refuse("gradients", option::computeGradients, "off, and compute gradients at the samples");
+  }
+  if (options.normalMethod == static_cast<int>(NormalMethod::Field))
+  {
+    refuse("normals from the field", option::normalMethod, "to planes, or to automatic");
   }
 }
 

@@ -99,9 +99,18 @@ Message describeIsovaluesOutside(const Report& report, const std::vector<double>
   const std::string greatest = textOf(report.greatest, digits);
   return { "isovalues outside of " + report.array + ": " + isovalues,
     "No isosurface at " + isovalues + ": " + describeArray(report) + " is from " + least + " to " +
-      greatest + ". Choose isovalues that are greater than " + least +
-      (report.areTriangles ? " and less than " : ", up to ") + greatest + ".",
+      greatest + ". Choose isovalues that are " +
+      (report.areCapped ? "" : "greater than " + least + (report.areTriangles ? " and " : ", ")) +
+      (report.areTriangles ? "less than " : "up to ") + greatest + ".",
     Message::Warning, Message::IsovalueOutside };
+}
+
+/// Whether an isovalue can have a surface.
+bool isInRange(const Report& report, double isovalue)
+{
+  // Bodies have all samples at the least value. Triangles shrink to samples at the greatest one.
+  return (isovalue > report.least || report.areCapped) &&
+         (isovalue < report.greatest || (isovalue == report.greatest && !report.areTriangles));
 }
 
 /// Why an isovalue in the range has no surface, and the remedy.
@@ -126,7 +135,8 @@ std::pair<Message::Codes, std::string> reasonOfEmptyIsovalue(
       "no block has a surface of its own. Turn " + naming("ContourBlocks") + " off." };
   }
   return { Message::NoCrossing,
-    report.areTriangles ? "the samples are in one plane. Apply Delaunay 2D and Contour instead."
+    report.areTriangles ? "no tetrahedron of the samples crosses it. Of samples in one plane, apply"
+                          " Delaunay 2D and Contour."
                         : "samples at one position count with the mean of their values." };
 }
 
@@ -153,11 +163,7 @@ std::vector<Message> describeIsovalues(const Report& report, OptionNaming naming
     const double value = report.isovalues[i];
     if (report.points[i] == 0 && report.least <= report.greatest)
     {
-      // Triangles at the greatest value shrink to the samples that have it.
-      const bool isInside =
-        value > report.least &&
-        (value < report.greatest || (value == report.greatest && !report.areTriangles));
-      (isInside ? empty : outside).push_back(value);
+      (isInRange(report, value) ? empty : outside).push_back(value);
     }
   }
   return { describeIsovaluesOutside(report, outside),
@@ -300,6 +306,7 @@ Report::Report(const Options& options, const std::vector<double>& sortedIsovalue
   : isovalues(sortedIsovalues)
   , points(sortedIsovalues.size(), 0)
   , areTriangles(options.triangles)
+  , areCapped(options.capping)
   , areProjected(options.projection != 0)
   , areSinglePoints(isSinglePrecision(options, false))
 {
@@ -389,8 +396,9 @@ void Report::share(ProcessGroup& processes)
 std::vector<Message> describeReport(const Report& report, OptionNaming naming)
 {
   std::vector<Message> messages = describeIsovalues(report, naming);
-  messages.push_back(describeSkipped(report, "There is no isosurface. Choose another array.",
-    "The surface there is that of the samples around."));
+  messages.push_back(
+    describeSkipped(report, "There is no isosurface. Choose another array, or mend the positions.",
+      "The surface there is that of the samples around."));
   messages.push_back(describeUnprojected(report, naming));
   messages.push_back(describeCornersApart(report));
   messages.push_back(describeBeyondFloat(report));

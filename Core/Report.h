@@ -91,6 +91,7 @@ struct Report : SampleCounts
   std::vector<double> isovalues;        // ascending
   std::vector<std::uint64_t> points;    // by isovalue
   bool areTriangles = false;            // whether points are connected
+  bool areCapped = false;               // whether the surface is that of a body
   bool areProjected = false;            // whether fits were to move points
   bool areSinglePoints = false;         // whether positions become float
   bool contoursBlocks = false;          // whether each block is its own cloud

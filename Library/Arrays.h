@@ -114,6 +114,17 @@ public:
     }
   }
 
+  /// All numbers of an array of type T, or null if they are not contiguous and aligned.
+  template <class T>
+  const T* contiguous() const
+  {
+    const bool isContiguous =
+      this->ComponentStride == sizeof(T) &&
+      this->Stride == sizeof(T) * static_cast<std::uint64_t>(this->components()) &&
+      reinterpret_cast<std::uintptr_t>(this->Array.data) % alignof(T) == 0;
+    return isContiguous ? static_cast<const T*>(this->Array.data) : nullptr;
+  }
+
   /// A number of an array of type T.
   template <class T>
   T at(std::size_t tuple, int component) const

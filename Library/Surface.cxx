@@ -69,6 +69,10 @@ std::vector<T> numbersOf(
                                  std::to_string(typeOf<T>()) + " of isopoint_type.",
       isopoint::UsageError::Array);
   }
+  if (const T* const contiguous = reader.contiguous<T>())
+  {
+    return { contiguous, contiguous + components * count };
+  }
   std::vector<T> numbers;
   numbers.reserve(components * count);
   for (std::size_t i = 0; i < components * count; ++i)
@@ -107,16 +111,14 @@ isopoint_surface::isopoint_surface(const isopoint::Execution& making,
   , options(chosen)
   , report(counts)
   , SampleCount(samples)
-  , Parts(std::move(surfaces))
+  , Isosurfaces(std::move(surfaces))
   , Points(makeCoordinates(isopoint::isSinglePrecision(options, areFloatPositions),
-      isopoint::countIsopoints(this->Parts)))
+      isopoint::countIsopoints(this->Isosurfaces)))
   , Splats(making, isopoint::buildSplatMesh({}, 0, {}), this->hasFloatPoints())
 {
-  const std::size_t count = isopoint::countIsopoints(this->Parts);
+  const std::size_t count = isopoint::countIsopoints(this->Isosurfaces);
   this->Isovalues.resize(count);
-  this->Edges.resize(2 * count);
-  this->EdgeParameters.resize(count);
-  this->Triangles.resize(3 * isopoint::countTriangles(this->Parts));
+  this->Triangles.resize(3 * isopoint::countTriangles(this->Isosurfaces));
   isopoint::OutputArrays arrays;
   arrays.normals = prepare(this->Normals, options.computeNormals, count, 3);
   arrays.gradients = prepare(this->Gradients, options.computeGradients, count, 3);
@@ -128,31 +130,24 @@ isopoint_surface::isopoint_surface(const isopoint::Execution& making,
     prepare(this->SplatPolygons, options.computeSplats, count, isopoint::numbersOfSplat);
   std::size_t first = 0;
   std::int64_t* corners = this->Triangles.data();
-  for (isopoint::ExtractedIsosurface& part : this->Parts)
+  for (isopoint::ExtractedIsosurface& isosurface : this->Isosurfaces)
   {
-    isopoint::writeArrays(execution, part, options.projection != 0, first, arrays);
-    isopoint::writeTriangles(execution, part, first, corners);
+    isopoint::writeArrays(execution, isosurface, options.projection != 0, first, arrays);
+    isopoint::writeTriangles(execution, isosurface, first, corners);
     std::visit([&](auto& numbers)
-      { isopoint::writePositions(execution, part.surface, numbers.data() + 3 * first); },
+      { isopoint::writePositions(execution, isosurface.surface, numbers.data() + 3 * first); },
       this->Points);
-    isopoint::forEachIndex(execution, part.surface.size(),
-      [&](std::size_t i)
-      {
-        const isopoint::IsopointEdge& edge = part.surface.edgeOf(i);
-        this->Isovalues[first + i] = part.surface.isovalue;
-        this->Edges[2 * (first + i)] = static_cast<std::int64_t>(edge.first);
-        this->Edges[2 * (first + i) + 1] = static_cast<std::int64_t>(edge.second);
-        this->EdgeParameters[first + i] = edge.parameter;
-      });
-    first += part.surface.size();
-    corners += 3 * part.triangles.size();
-    this->Caps.insert(this->Caps.end(), part.areCaps.begin(), part.areCaps.end());
-    // Interpolation needs these parts.
+    std::fill_n(this->Isovalues.begin() + static_cast<std::ptrdiff_t>(first),
+      isosurface.surface.size(), isosurface.surface.isovalue);
+    first += isosurface.surface.size();
+    corners += 3 * isosurface.triangles.size();
+    this->Caps.insert(this->Caps.end(), isosurface.areCaps.begin(), isosurface.areCaps.end());
+    // What interpolation needs.
     isopoint::ExtractedIsosurface kept;
-    kept.surface.edges = std::move(part.surface.edges);
-    kept.surface.edgeBegins = std::move(part.surface.edgeBegins);
-    kept.surface.coincident = std::move(part.surface.coincident);
-    part = std::move(kept);
+    kept.surface.edges = std::move(isosurface.surface.edges);
+    kept.surface.edgeBegins = std::move(isosurface.surface.edgeBegins);
+    kept.surface.coincident = std::move(isosurface.surface.coincident);
+    isosurface = std::move(kept);
   }
 }
 
@@ -173,8 +168,33 @@ std::size_t isopoint_surface::pointCount() const
   return std::visit([](const auto& numbers) { return numbers.size() / 3; }, this->Points);
 }
 
+void isopoint_surface::listEdges() const
+{
+  std::vector<std::int64_t> edges;
+  std::vector<double> parameters;
+  edges.reserve(2 * this->pointCount());
+  parameters.reserve(this->pointCount());
+  for (const isopoint::ExtractedIsosurface& isosurface : this->Isosurfaces)
+  {
+    for (std::size_t i = 0; i < isosurface.surface.size(); ++i)
+    {
+      const isopoint::IsopointEdge& edge = isosurface.surface.edgeOf(i);
+      edges.push_back(static_cast<std::int64_t>(edge.first));
+      edges.push_back(static_cast<std::int64_t>(edge.second));
+      parameters.push_back(edge.parameter);
+    }
+  }
+  this->Edges.swap(edges);
+  this->EdgeParameters.swap(parameters);
+}
+
 isopoint_array isopoint_surface::array(std::int32_t id) const
 {
+  if ((id == ISOPOINT_ARRAY_EDGES || id == ISOPOINT_ARRAY_EDGE_PARAMETERS) &&
+      this->EdgeParameters.empty())
+  {
+    this->listEdges();
+  }
   const std::array<isopoint_array, ISOPOINT_ARRAY_CAPS + 1> arrays{
     asArray(this->Points),
     asArray(this->Isovalues, 1),
@@ -212,10 +232,10 @@ void isopoint_surface::interpolate(const isopoint_array* ofSamples, void* result
     {
       using T = decltype(type);
       T* next = static_cast<T*>(result);
-      for (const isopoint::ExtractedIsosurface& part : this->Parts)
+      for (const isopoint::ExtractedIsosurface& isosurface : this->Isosurfaces)
       {
         isopoint::interpolateComponents(
-          this->execution, part.surface, reader.components(),
+          this->execution, isosurface.surface, reader.components(),
           [&](std::uint64_t sample, int component) {
             return static_cast<double>(reader.at<T>(static_cast<std::size_t>(sample), component));
           },
@@ -225,7 +245,7 @@ void isopoint_surface::interpolate(const isopoint_array* ofSamples, void* result
           });
         if (!this->Caps.empty())
         {
-          isopoint::forEachAtSample(this->execution, part.surface,
+          isopoint::forEachAtSample(this->execution, isosurface.surface,
             [&](std::size_t i, std::uint64_t sample)
             {
               for (std::size_t component = 0; component < components; ++component)
@@ -235,7 +255,7 @@ void isopoint_surface::interpolate(const isopoint_array* ofSamples, void* result
               }
             });
         }
-        next += components * part.surface.size();
+        next += components * isosurface.surface.size();
       }
     });
 }

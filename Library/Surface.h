@@ -49,6 +49,7 @@ struct isopoint_surface
 
 private:
   std::size_t pointCount() const;
+  void listEdges() const;
   bool hasFloatPoints() const { return std::holds_alternative<std::vector<float>>(this->Points); }
 
   struct SplatArrays
@@ -62,20 +63,22 @@ private:
     std::vector<std::int64_t> triangles;
   };
 
-  std::size_t SampleCount = 0;                      // including skipped ones
-  std::vector<isopoint::ExtractedIsosurface> Parts; // edges and coincident samples of each isovalue
+  std::size_t SampleCount = 0;                            // including skipped ones
+  std::vector<isopoint::ExtractedIsosurface> Isosurfaces; // their edges and coincident samples
   Coordinates Points;
   std::vector<double> Isovalues;
   std::vector<float> Normals;
   std::vector<float> Gradients;
   std::vector<std::uint8_t> ProjectionOrders;
-  std::vector<std::int64_t> Edges;
-  std::vector<double> EdgeParameters;
   std::vector<std::int64_t> Triangles;
   std::vector<std::uint8_t> Caps;
   std::vector<float> Radii;
   std::vector<float> SplatAxes;
   std::vector<float> SplatPolygons;
+
+  // Of the isosurfaces above; empty until array() is asked for one of them.
+  mutable std::vector<std::int64_t> Edges;
+  mutable std::vector<double> EdgeParameters;
 
   bool HasSplatMesh = false;
   SplatArrays Splats; // empty until makeSplatMesh()

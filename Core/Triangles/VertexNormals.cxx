@@ -51,6 +51,54 @@ std::vector<std::size_t> failedNormals(const Execution& execution, const Surface
     });
 }
 
+/// The angle of a cosine in radians, to 1e-4: by polynomials, as C libraries differ
+/// ([AS64], 4.4.45).
+double angleOf(double cosine)
+{
+  constexpr double pi = 3.14159265358979;
+  const double x = std::min(std::abs(cosine), 1.0);
+  const double angle =
+    std::sqrt(1.0 - x) * (1.5707288 + x * (-0.2121144 + x * (0.0742610 - x * 0.0187293)));
+  return cosine < 0.0 ? pi - angle : angle;
+}
+
+/// The sum of the normals of the triangles at a vertex, weighted by their angles there.
+Vector angleNormal(const std::vector<Vector>& positions,
+  const std::vector<SurfaceTriangle>& triangles, const OutgoingHalfEdges& outgoing,
+  std::size_t vertex)
+{
+  Vector sum{};
+  outgoing.forEachAt(vertex,
+    [&](HalfEdge side)
+    {
+      const SurfaceTriangle& corners = triangles[side / 3];
+      const Vector next = positions[corners[nextOf(side) % 3]] - positions[vertex];
+      const Vector last = positions[corners[lastOf(side) % 3]] - positions[vertex];
+      const Vector normal = cross(next, last);
+      if (hasDirection(normal))
+      {
+        sum += angleOf(dot(directionOf(next), directionOf(last))) * directionOf(normal);
+      }
+    });
+  return sum;
+}
+
+/// Whether a triangle at a vertex is turned away from its normal.
+bool isContradicted(const std::vector<Vector>& positions,
+  const std::vector<SurfaceTriangle>& triangles, const OutgoingHalfEdges& outgoing,
+  std::size_t vertex, const Vector& normal)
+{
+  bool isContradicted = false;
+  outgoing.forEachAt(vertex,
+    [&](HalfEdge side)
+    {
+      const auto& [a, b, c] = triangles[side / 3];
+      isContradicted = isContradicted || dot(normal, cross(positions[b] - positions[a],
+                                                       positions[c] - positions[a])) < 0.0;
+    });
+  return isContradicted;
+}
+
 } // namespace
 
 std::vector<Vector> areaNormals(const Execution& execution, const std::vector<Vector>& positions,
@@ -71,7 +119,7 @@ std::vector<Vector> areaNormals(const Execution& execution, const std::vector<Ve
 }
 
 std::vector<Vector> vertexNormals(const Execution& execution, const SurfacePoints& points,
-  const std::vector<SurfaceTriangle>& triangles, bool areOfField)
+  const std::vector<SurfaceTriangle>& triangles, bool areOfField, bool isClosed)
 {
   std::vector<Vector> normals(points.positions.size());
   std::vector<std::size_t> others = setFieldNormals(execution, points, areOfField,
@@ -92,6 +140,18 @@ std::vector<Vector> vertexNormals(const Execution& execution, const SurfacePoint
       const Vector& normal = ofTriangles[vertex];
       normals[vertex] = directionOf(hasDirection(normal) ? normal : points.decreasingEdges[vertex]);
     });
+  if (isClosed)
+  {
+    forEachIndex(execution, normals.size(),
+      [&](std::size_t vertex)
+      {
+        if (isContradicted(points.positions, triangles, outgoing, vertex, normals[vertex]))
+        {
+          const Vector mean = angleNormal(points.positions, triangles, outgoing, vertex);
+          normals[vertex] = hasDirection(mean) ? directionOf(mean) : normals[vertex];
+        }
+      });
+  }
   return normals;
 }
 

@@ -20,8 +20,11 @@ std::vector<Vector> areaNormals(const Execution& execution, const std::vector<Ve
 /// area-weighted mean of the triangle normals. The mean also replaces a missing normal, and one of
 /// a failed fit, which is more than 60 degrees off both this mean and the mean of the neighbors'
 /// means. Fits with creases do not fail.
+/// @param isClosed whether the surface is that of a body, whose faces share vertices where it is
+/// thin: where a triangle is turned away from the normal of a vertex, the mean weighted by angles
+/// replaces it
 /// @throws std::bad_alloc, Aborted
 std::vector<Vector> vertexNormals(const Execution& execution, const SurfacePoints& points,
-  const std::vector<SurfaceTriangle>& triangles, bool areOfField);
+  const std::vector<SurfaceTriangle>& triangles, bool areOfField, bool isClosed);
 
 } // namespace isopoint

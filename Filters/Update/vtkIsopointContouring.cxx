@@ -79,7 +79,7 @@ void vtkIsopointContouring::Extract(
   vtkDataObject* const output = vtkDataObject::GetData(outputInfo);
   const std::vector<double> isovalues = isopoint::sortedIsovalues(this->Options.GetValues());
   const vtkIsopointArrayChoice array(inputArray);
-  isopoint::checkOptions(this->Options.Core);
+  isopoint::checkOptions(this->Options.Core, this->Update.GetOptionNaming());
   this->Update.CheckOptionsOnRanks(textOf(this->Options, isovalues, array), "contour");
   isopoint::ProcessGroup& processes = this->Update.GetProcesses();
   this->GhostLevels = this->Update.GetGhostLevels(outputInfo);

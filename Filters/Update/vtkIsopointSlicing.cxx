@@ -159,7 +159,7 @@ void vtkIsopointSlicing::Slice(
   }
   const vtkIsopointCut cut(options.Function);
   cut.Check();
-  isopoint::checkOptions(options.Core);
+  isopoint::checkOptions(options.Core, this->Update.GetOptionNaming());
   this->Update.CheckOptionsOnRanks(textOf(options), this->IsBody ? "find the body of" : "slice");
   const int ghostLevels = this->Update.GetGhostLevels(outputInfo);
 

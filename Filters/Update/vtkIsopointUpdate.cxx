@@ -241,6 +241,11 @@ std::string panelNameOf(const char* name)
 
 } // namespace
 
+isopoint::OptionNaming vtkIsopointUpdate::GetOptionNaming() const
+{
+  return this->Current.UsePanelNames ? &panelNameOf : &isopoint::sameName;
+}
+
 void vtkIsopointUpdate::ReportMessages(const Describer& describe)
 try
 {
@@ -254,8 +259,7 @@ try
     this->ReportedOf == producer ? this->Reported : std::set<std::string>();
   this->ReportedOf = producer;
   this->Reported.clear();
-  for (isopoint::Message& message :
-    describe(this->Current.UsePanelNames ? &panelNameOf : &isopoint::sameName))
+  for (isopoint::Message& message : describe(this->GetOptionNaming()))
   {
     this->Reported.insert(message.cause);
     if (before.count(message.cause) > 0)

@@ -81,6 +81,7 @@ public:
   // For the work:
 
   const isopoint::Execution& GetExecution() const { return this->Execution; }
+  isopoint::OptionNaming GetOptionNaming() const;
   isopoint::ProcessGroup& GetProcesses() { return this->Processes; }
   bool KeepsTrees() const { return this->Current.KeepTree; }
 

@@ -94,8 +94,9 @@ def values_of(array: Any, count: int) -> tuple[np.ndarray, Optional[np.ndarray]]
 
 def describe_masked(masked: np.ndarray) -> str:
     """A message about values that are masked."""
-    return (f"{np.count_nonzero(masked)} of {len(masked)} values are masked: their samples are left out. The"
-            " surface there is that of the samples around.")
+    remedy = "Give values that are not masked." if masked.all() else (
+        "The surface there is that of the samples around.")
+    return f"{np.count_nonzero(masked)} of {len(masked)} values are masked: their samples are left out. {remedy}"
 
 
 def column(name: str, array: Any, count: int, one_component: bool = False) -> np.ndarray:
@@ -136,7 +137,7 @@ def further_arrays(arrays: Optional[Mapping[str, Any]], count: int) -> dict[str,
 
 def isovalues_of(isovalues: Union[float, Iterable[float]]) -> list[float]:
     """One or several isovalues as a list, without masked ones."""
-    if isovalues is None or isinstance(isovalues, (str, bytes)):
+    if isovalues is None or isinstance(isovalues, (str, bytes, bool, np.bool_, Mapping)):
         raise TypeError(f"isovalues are {isovalues!r}, not numbers")
     if isinstance(isovalues, np.ma.MaskedArray):
         isovalues = isovalues.compressed()

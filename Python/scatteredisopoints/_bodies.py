@@ -4,18 +4,17 @@
 from __future__ import annotations
 
 import math
-import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Mapping, Optional
 
 import numpy as np
 
-from . import _datasets, _library
+from . import _library
 from ._isosurface import Isosurface
 from ._option_types import BodyOptions
 from ._options import hint, make_options, thread_count
 from ._progress import Progress, part, shown_progress
-from ._slices import arrays_of
+from ._slices import arrays_of, warn_of
 
 if TYPE_CHECKING:
     from ._samples import Samples
@@ -70,10 +69,5 @@ def body_of(samples: Samples, arrays: Any, threads: Optional[int], progress: Pro
     of_samples = arrays_of(samples, arrays)
     with shown_progress(progress, "Finding the body") as report:
         made = make_body(samples, options, of_samples, threads, report)
-    texts = list(samples._describe_left_out(made.skipped))
-    if arrays is None and samples._differing:
-        texts.append(_datasets.describe_differing(samples._differing))
-    empty = made.describe_empty()
-    for text in texts if empty is None else [*texts, empty]:
-        warnings.warn(text, RuntimeWarning, stacklevel=stacklevel)
+    warn_of(samples, made.isosurface, made.skipped, arrays is None, made.describe_empty(), stacklevel + 1)
     return made.isosurface

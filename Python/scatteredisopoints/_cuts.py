@@ -51,7 +51,12 @@ class Function(Cut):
         self.function = evaluator(function) if is_implicit_function(function) else function
 
     def at(self, places: np.ndarray) -> np.ndarray:
-        values = np.asarray(self.function(places), dtype=np.float64)
+        unchanged = places.view()
+        unchanged.setflags(write=False)
+        values = np.asarray(self.function(unchanged))
+        if values.dtype.kind not in "fiub":
+            raise TypeError(f"function returns the type {values.dtype}: it is to return real numbers")
+        values = values.astype(np.float64, copy=False)
         if values.shape != (len(places),):
             raise ValueError(f"function returns the shape {values.shape} for places of the shape {places.shape}: it is"
                              " to return one number for each place")

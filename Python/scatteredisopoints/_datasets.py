@@ -8,12 +8,12 @@ points and cells are samples.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, Callable, Iterable, Iterator, Optional, Sequence
+from typing import Any, Callable, Iterable, Iterator, Mapping, Optional, Sequence
 
 import numpy as np
 
 from ._arrays import (
-    CELL, FLOAT, POINT, as_numpy, module_of, package_of, positions_of, values_of)
+    CELL, FLOAT, POINT, are_names, as_numpy, module_of, package_of, positions_of, values_of)
 from ._ghosts import excluded_cells, excluded_points, ghosts_of
 from ._library import Message
 from ._polydata import PolyDataMaker
@@ -432,3 +432,15 @@ def _cell_centers(leaf: Any) -> np.ndarray:
     module_of(leaf, "vtkFiltersCore").vtkCellCenters.ComputeCellCenters(leaf, centers)
     is_float = leaf.IsA("vtkPointSet") and leaf.GetPoints().GetDataType() == FLOAT
     return as_numpy(centers).astype(np.float32 if is_float else np.float64, copy=False)
+
+
+def samples_for(source: Any, values: Any, associations: tuple[int, ...] = (POINT, CELL)) -> DataSamples:
+    """The samples for calls on arrays, without values, so that each array keeps those it has."""
+    data = data_object(source)
+    if data is None:
+        return samples_of(source, None)
+    if isinstance(values, str) or are_names(values):
+        return samples_with(data, [values] if isinstance(values, str) else values, associations)
+    first = next(iter(values.values()), None) if isinstance(values, Mapping) else values
+    association = POINT if first is None else association_of(data, np.shape(first))
+    return samples_with(data, (), (association,))

@@ -8,7 +8,7 @@ import math
 import os
 import warnings
 from ctypes import byref, c_void_p
-from typing import Any, Callable, Iterable, Mapping, Optional, Union
+from typing import Any, Callable, Iterable, Iterator, Mapping, Optional, Union
 
 import numpy as np
 
@@ -39,6 +39,9 @@ class Isosurface:
     cell_arrays: Mapping[str, np.ndarray]
     """Arrays of the triangles by name: with capping IsCap, 1 in caps and 0 in the isosurface."""
 
+    engine: str
+    """What extracted it: "C library" or "compiled filters". Both give the same bytes."""
+
     def __init__(
         self,
         points: np.ndarray,
@@ -60,6 +63,7 @@ class Isosurface:
         self.cell_arrays = cell_arrays or {}
         self._make_polydata = make_polydata
         self._polydata = polydata
+        self.engine = "C library" if polydata is None else "compiled filters"
         self._threads = threads
         self._levels = sorted({*levels})
         self._isovalues = isovalues  # of points; None for one level
@@ -148,12 +152,16 @@ class Isosurface:
     @property
     def volume(self) -> Union[float, np.ndarray]:
         """The volume within the triangles, in the cube of the unit of positions; if there are several isovalues, of
-        each, ascending. The sum of the volumes of the pieces: bubbles are subtracted. NaN, with a warning, unless each
-        edge has exactly two triangles."""
+        each, ascending. The sum of the volumes of the pieces: bubbles are subtracted. Negative around lower values, as
+        of a distance, unless gradient_direction is "ascent". NaN, with a warning, unless each edge has exactly two
+        triangles."""
         volumes = self._sums("volume")
-        if np.isnan(volumes).any():
+        if any(math.isnan(piece.volume) for piece in self.pieces):
             warnings.warn("Not every edge has exactly two triangles, so there is no volume: extract the surface with"
                           " capping=True.", RuntimeWarning, stacklevel=2)
+        elif not np.isfinite(volumes).all():
+            warnings.warn("The volume is beyond the range of float64: choose another unit of length.", RuntimeWarning,
+                          stacklevel=2)
         return volumes
 
     def _measured(self) -> Measures:
@@ -249,3 +257,11 @@ def _at_vertices(surface: _library.Surface, array: np.ndarray, point_of_vertex, 
     _library.run_with(_library.Callbacks(is_canceled=is_canceled), surface,
                       _library.average_at_splat_vertices, array, result)
     return result
+
+
+def describe_not_finite(arrays: Mapping[str, np.ndarray]) -> Iterator[str]:
+    """Messages about arrays of points with entries that are not finite, as gaps in data are."""
+    for name, numbers in arrays.items():
+        if numbers.dtype.kind == "f" and not np.isfinite(numbers).all():
+            count = np.count_nonzero(~np.isfinite(numbers.reshape(len(numbers), -1)).all(axis=1))
+            yield f'"{name}" is not finite at {count} of {len(numbers)} points, as at samples beside them.'

@@ -29,6 +29,9 @@ TYPES = tuple(np.dtype(kind) for kind in ("f4", "f8", "i1", "u1", "i2", "u2", "i
 OUTSIDE_NUMBER, OUTSIDE_NEAREST, OUTSIDE_EXTRAPOLATE = range(3)
 PLACE_OUTSIDE, PLACE_FLAT = 1, 2
 
+# isopoint_message_code: an isovalue without a surface
+EMPTY = range(3, 8)
+
 # isopoint_status
 (OK, INVALID_ARGUMENT, OUT_OF_MEMORY, CANCELED, INTERNAL_ERROR, INVALID_ARRAY, INVALID_OPTION, INVALID_ORDER,
  FORKED) = range(9)
@@ -161,6 +164,7 @@ get_unprojected_count = _declare("get_unprojected_count", c_void_p, result=c_int
 get_dropped_count = _declare("get_dropped_count", c_void_p, result=c_int64)
 get_message = _declare("get_message", c_void_p, c_int64, POINTER(c_int32), result=c_char_p)
 get_message_cause = _declare("get_message_cause", c_void_p, c_int64, result=c_char_p)
+get_message_code = _declare("get_message_code", c_void_p, c_int64, result=c_int32)
 join_messages = _declare("join_messages", c_void_p, c_void_p)
 get_array = _declare("get_array", c_void_p, c_int32, POINTER(Array))
 interpolate = _declare("interpolate", c_void_p, Numbers, Memory)
@@ -358,12 +362,15 @@ class Message:
     cause: str
     """Stays the same in later extractions while the cause lasts; figures in the text change."""
 
+    code: int = 0
+    """An isopoint_message_code; 0 for messages of this package."""
+
 
 def messages(surface: Surface) -> list[Message]:
     """All messages about a surface."""
     found: list[Message] = []
     is_warning = c_int32()
     while (text := get_message(surface, len(found), byref(is_warning))) is not None:
-        cause = get_message_cause(surface, len(found))
-        found.append(Message(text.decode(), bool(is_warning.value), cause.decode()))
+        cause, code = get_message_cause(surface, len(found)), get_message_code(surface, len(found))
+        found.append(Message(text.decode(), bool(is_warning.value), cause.decode(), code))
     return found

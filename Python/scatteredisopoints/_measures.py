@@ -44,9 +44,12 @@ def measure(points: np.ndarray, triangles: np.ndarray, isovalues: np.ndarray, jo
     regions = regions.reshape(-1)
     # From a point of the piece, so that no digits are lost.
     a, b, c = (points[numbers[:, i]].astype(np.float64) - points[firsts[regions]] for i in range(3))
+    scale = 2.0 ** np.frexp(max(np.abs(each).max() for each in (a, b, c)))[1]
+    a, b, c = a / scale, b / scale, c / scale
     normals = np.cross(b - a, c - a)
-    areas = np.bincount(regions, 0.5 * np.linalg.norm(normals, axis=1))
-    volumes = np.bincount(regions, np.einsum("ij,ij->i", a, normals) / 6.0)
+    with np.errstate(over="ignore"):
+        areas = np.bincount(regions, 0.5 * np.linalg.norm(normals, axis=1)) * scale * scale
+        volumes = np.bincount(regions, np.einsum("ij,ij->i", a, normals) / 6.0) * scale * scale * scale
     volumes[np.bincount(regions, ~_are_closed(numbers, len(points))) > 0] = math.nan
     order = np.argsort(-areas, kind="stable")
     places = np.empty(len(order), np.int64)

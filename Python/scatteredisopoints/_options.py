@@ -73,9 +73,9 @@ def make_options(triangles: bool, given: Mapping[str, Any]) -> Options:
 def direction_sign(direction: Any) -> int:
     """What values are multiplied by so that they decrease out of the body. Raises ValueError for invalid values."""
     signs = {"descent": 1, "ascent": -1}
-    if not isinstance(direction, str) or direction not in signs:
+    if str(direction).lower() not in signs:
         raise ValueError(f'gradient_direction cannot be {direction!r}: it is "descent" or "ascent"')
-    return signs[direction]
+    return signs[str(direction).lower()]
 
 
 def make_probe_options(method: Any, outside: Any) -> ProbeOptions:
@@ -108,9 +108,9 @@ def make_slice_options(given: Mapping[str, Any]) -> Options:
 def method_of_slice(interpolation: Any) -> Optional[str]:
     """The method of probe() for the arrays of a slice; None: linear. Raises ValueError for invalid values."""
     methods = {"fits": "BLEND", "linear": None, "nearest": "NEAREST"}
-    if not isinstance(interpolation, str) or interpolation not in methods:
+    if str(interpolation).lower() not in methods:
         raise ValueError(f'interpolation cannot be {interpolation!r}: it is "fits", "linear" or "nearest"')
-    return methods[interpolation]
+    return methods[str(interpolation).lower()]
 
 
 def thread_count(threads: Optional[int]) -> int:
@@ -159,7 +159,9 @@ def number_of(name: str, value: Any, default: Any) -> Any:
             raise TypeError
         number = float(value) if isinstance(default, float) else operator.index(value)
     except (TypeError, ValueError):
-        raise ValueError(f"{name} cannot be {value!r}: it is a number") from None
+        kind = (", ".join(CONSTANTS[name]) if name in CONSTANTS else
+                "a real number" if isinstance(default, float) else "a whole number")
+        raise ValueError(f"{name} cannot be {value!r}: it is {kind}") from None
     except OverflowError:
         raise ValueError(f"{name} is out of range: float64 holds numbers up to 1.8e308") from None
     if isinstance(number, int) and not -2**31 <= number < 2**31:

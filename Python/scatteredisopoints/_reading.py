@@ -166,12 +166,17 @@ def _read_text(file: TextIO) -> dict[str, Any]:
             return math.nan if text.strip().lower() in _MISSING else None
 
     rows = rows_of(chain(head, file))
-    first = next(rows)
+    first = next(rows, (0, []))
+    if not first[1]:
+        raise ValueError("it is empty")
     names = [name.strip() for name in first[1]]
     if None not in map(number, names):
         rows = chain([first], rows)
         comment = next((row for _, row in rows_of([line.lstrip("# ") for line in head[-2:-1]])), [])
         names = [name.strip() for name in comment] if len(comment) == len(names) else _default_names(len(names))
+    twice = next((name for i, name in enumerate(names) if name in names[:i]), None)
+    if twice is not None:
+        raise ValueError(f'two columns have the name "{twice}"')
     columns: dict[str, Any] = {name: [np.zeros(0)] for name in names}
     while chunk := list(islice(rows, 50_000)):
         for line, row in chunk:

@@ -20,7 +20,7 @@ from ._arrays import (
 from ._bodies import body_of
 from ._cuts import Normal
 from ._interpolator import Interpolator
-from ._isosurface import Isosurface
+from ._isosurface import Isosurface, describe_not_finite
 from ._option_types import BodyOptions, ContourOptions, SliceOptions, Unpack
 from ._options import (
     CONSTANTS, direction_sign, hint, make_options, make_probe_options, switch, thread_count)
@@ -48,7 +48,7 @@ class Extracted:
         of_library = _library.messages(self.surface)
         if self.sign < 0:
             prefix = "Of the negated values, as gradient_direction takes them: "
-            of_library = [replace(each, text=prefix + each.text) if each.cause.startswith("isovalues outside") else each
+            of_library = [replace(each, text=prefix + each.text) if each.code in _library.EMPTY else each
                           for each in of_library]
         return of_library + self.own_messages
 
@@ -133,7 +133,7 @@ class Samples:
 
     def __repr__(self) -> str:
         if self._values is None:
-            return f"<Samples: {len(self)}, without values>"
+            return f"<Samples: {len(self)}, {'without values' if self._is_loaded else 'freed'}>"
         least, greatest = self.range
         return f"<Samples: {len(self)}, values from {least:g} to {greatest:g}>"
 
@@ -256,9 +256,10 @@ class Samples:
         if not options.get("keep_tree", True):
             with self._exclusive():
                 self._clear()
-        for message in extracted.messages:
-            warnings.warn(message.text, RuntimeWarning, stacklevel=stacklevel)
-        return extracted.isosurface
+        isosurface = extracted.isosurface
+        for text in [*(message.text for message in extracted.messages), *describe_not_finite(isosurface.arrays)]:
+            warnings.warn(text, RuntimeWarning, stacklevel=stacklevel)
+        return isosurface
 
     def _extract(self, isovalues, triangles, arrays, options, threads=None, **callbacks) -> Extracted:
         """contour() without warnings, and without keep_tree. Callbacks are those of _library.Callbacks."""
@@ -491,15 +492,16 @@ class Samples:
         return tensors(name, self._current(name, array) if is_of_vtk else array, len(self))
 
     def _interpolated(self, surface, of_samples: Mapping[str, Any], is_canceled) -> dict[str, np.ndarray]:
-        edges = _library.view(surface, _library.EDGES)
+        count = len(_library.view(surface, _library.POINTS))
         found: dict[str, np.ndarray] = {}
         for name, array in of_samples.items():
             if self._maker.uses.get(name) == _datasets.PEDIGREE_IDS:
                 is_first_nearer = _library.view(surface, _library.EDGE_PARAMETERS) < 0.5
+                edges = _library.view(surface, _library.EDGES)
                 found[name] = self._current(name, array)[np.where(is_first_nearer, *edges.T)]
                 continue
             array = readable(name, self._current(name, array))
-            found[name] = np.empty((len(edges), *array.shape[1:]), array.dtype)
+            found[name] = np.empty((count, *array.shape[1:]), array.dtype)
             _library.run_with(_library.Callbacks(is_canceled=is_canceled), surface, _library.interpolate,
                               array if array.ndim < 3 else array.reshape(len(array), -1), found[name])
         return found

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Mapping, Optional
@@ -12,7 +13,7 @@ import numpy as np
 from . import _datasets, _library
 from ._arrays import are_names, as_numpy, isovalues_of, readable
 from ._cuts import Cut, Normal, describe_empty, make_cut, rounded, shares_to_zero
-from ._isosurface import Isosurface
+from ._isosurface import Isosurface, describe_not_finite
 from ._options import make_probe_options, make_slice_options, method_of_slice, thread_count
 from ._progress import Progress, part, shown_progress
 
@@ -26,19 +27,25 @@ def sliced(samples: Samples, normal: Optional[Normal], origin: Any, arrays: Any,
     method = method_of_slice(interpolation)
     cut, level = make_cut(normal, origin, function, lambda: _center_of_bounds(samples))
     levels = [level + offset for offset in isovalues_of(offsets)]
+    if any(map(math.isnan, levels)):
+        raise ValueError("An offset is not a number. Choose numbers as offsets.")
     chosen = make_slice_options(options)
     of_samples = arrays_of(samples, arrays)
     with shown_progress(progress, "Slicing") as report:
         made = make_slice(samples, cut, levels, chosen, of_samples, method, threads, report)
-    texts = list(samples._describe_left_out(made.skipped))
-    if arrays is None and samples._differing:
-        texts.append(_datasets.describe_differing(samples._differing))
-    if len(made.isosurface) == 0:
-        text = describe_empty(levels, *made.range, made.dropped)
-        texts = [*texts, *([] if text is None else [text])]
-    for text in texts:
-        warnings.warn(text, RuntimeWarning, stacklevel=stacklevel)
+    empty = describe_empty(levels, *made.range, made.dropped) if len(made.isosurface) == 0 else None
+    warn_of(samples, made.isosurface, made.skipped, arrays is None, empty, stacklevel + 1)
     return made.isosurface
+
+
+def warn_of(samples: Samples, isosurface: Isosurface, skipped: int, has_all_arrays: bool, empty: Optional[str],
+            stacklevel: int) -> None:
+    """Warns of samples and arrays that are left out, and why the surface is empty."""
+    texts = [*samples._describe_left_out(skipped), *describe_not_finite(isosurface.arrays)]
+    if has_all_arrays and samples._differing:
+        texts.append(_datasets.describe_differing(samples._differing))
+    for text in texts if empty is None else [*texts, empty]:
+        warnings.warn(text, RuntimeWarning, stacklevel=stacklevel)
 
 
 @dataclass
@@ -119,6 +126,9 @@ def _moved_onto(samples: Samples, cut: Cut, at_samples: np.ndarray, surface: _li
     levels, edges = (_library.view(surface, each) for each in (_library.ISOVALUES, _library.EDGES))
     dtype, points = points.dtype, points.astype(np.float64)
     before = cut.at(points) - levels
+    if not np.isfinite(before).all():
+        raise ValueError(f"The cut function is not finite at {np.count_nonzero(~np.isfinite(before))} places between"
+                         " samples. Choose one that is finite everywhere.")
     is_second = (at_samples[edges[:, 1]] >= levels) != (before >= 0.0)
     ends = np.where(is_second, edges[:, 1], edges[:, 0])
     ways = samples._current("positions", samples._positions)[ends] - points

@@ -8,12 +8,11 @@ from typing import Any, Iterable, Mapping, Optional, Union
 
 from ._arrays import isovalues_of, package_of
 from ._bodies import body_of
-from ._datasets import data_object
+from ._datasets import data_object, samples_for
 from ._isosurface import Isosurface
 from ._option_types import BodyOptions, OptionsOfContour, Unpack
 from ._progress import Progress, part, shown_progress
 from ._samples import Samples
-from .probing import samples_for
 
 
 def contour(

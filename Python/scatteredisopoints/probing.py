@@ -5,12 +5,9 @@ from __future__ import annotations
 
 import contextlib
 import math
-from typing import Any, Iterator, Mapping, Optional, Union
-
-import numpy as np
+from typing import Any, Iterator, Optional, Union
 
 from . import _datasets
-from ._arrays import CELL, POINT, are_names
 from ._progress import Progress, part, shown_progress
 from ._samples import Samples
 
@@ -110,17 +107,5 @@ def _loaded(source: Any, values: Any, threads: Optional[int], progress: Progress
     if values is None:
         raise TypeError("values are missing: numbers of the samples, or the name of an array of a data set")
     with shown_progress(progress, "Probing") as report:
-        samples = Samples._of(samples_for(source, values), threads, progress=part(report, 0.0, 0.3))
+        samples = Samples._of(_datasets.samples_for(source, values), threads, progress=part(report, 0.0, 0.3))
         yield samples, part(report, 0.3, 1.0)
-
-
-def samples_for(source: Any, values: Any, associations: tuple[int, ...] = (POINT, CELL)) -> _datasets.DataSamples:
-    """The samples for Samples.probe(), without values, so that each array keeps those it has."""
-    data = _datasets.data_object(source)
-    if data is None:
-        return _datasets.samples_of(source, None)
-    if isinstance(values, str) or are_names(values):
-        return _datasets.samples_with(data, [values] if isinstance(values, str) else values, associations)
-    first = next(iter(values.values()), None) if isinstance(values, Mapping) else values
-    association = POINT if first is None else _datasets.association_of(data, np.shape(first))
-    return _datasets.samples_with(data, (), (association,))

@@ -6,12 +6,12 @@ from __future__ import annotations
 from typing import Any, Iterable, Optional, Union
 
 from ._cuts import Normal
+from ._datasets import samples_for
 from ._isosurface import Isosurface
 from ._option_types import SliceOptions, Unpack
 from ._progress import Progress, part, shown_progress
 from ._samples import Samples
 from ._slices import sliced
-from .probing import samples_for
 
 
 def slice_samples(

@@ -179,6 +179,13 @@ TEST(Messages, NamesOfPropertiesCanBeThoseOfParaViewsPanel)
   allInGaps->change(subject);
   subject.filter->UsePanelNamesOn();
   expectOneWarning(subject.filter, { "25", "Turn Drop Gaps off" });
+
+  const auto capped = vtkSmartPointer<vtkScatteredIsosurfaceFilter>::New();
+  capped->SetInputData(newCloud(500));
+  capped->CappingOn();
+  capped->SetNormalMethod(0);
+  capped->UsePanelNamesOn();
+  expectOne(messagesOf(capped, vtkCommand::ErrorEvent), { "Set Normal Method to planes" });
 }
 
 TEST(Messages, IsovaluesBetweenBlocksAreNotInGaps)

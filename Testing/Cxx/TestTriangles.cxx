@@ -139,7 +139,7 @@ private:
   {
     const std::vector<Vector> decreasing(this->positions.size(), Vector{ 0.0, 0.0, 1.0 });
     return vertexNormals(
-      {}, { this->positions, decreasing, this->fits }, this->triangles, areOfField);
+      {}, { this->positions, decreasing, this->fits }, this->triangles, areOfField, false);
   }
 };
 
@@ -296,6 +296,40 @@ TEST(Triangles, HaveNormalsAgainstTheGradientWhereTheyAreFolded)
   const std::size_t folded = FlatSheet::vertexAt(3, 3);
   EXPECT_LT(sheet.trianglesNormalAt(folded)[2], 0.5);
   EXPECT_EQ(sheet.normals()[folded], Vector({ 0.0, 0.0, 1.0 }));
+}
+
+/// Faces of thin bodies share the vertices of their rim, whose normals may not be turned from
+/// either.
+TEST(Triangles, OfThinBodiesHaveNormalsThatNoneContradicts)
+{
+  const std::vector<Vector> positions{ { 0.0, 0.0, 0.0 }, { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 },
+    { 0.3, 0.3, 0.1 }, { 0.05, 0.05, -0.01 } };
+  const std::vector<SurfaceTriangle> triangles{ { 0, 1, 3 }, { 1, 2, 3 }, { 2, 0, 3 }, { 1, 0, 4 },
+    { 2, 1, 4 }, { 0, 2, 4 } };
+  LocalFit upwards;
+  upwards.gradient = { 0.0, 0.0, -1.0 };
+  upwards.isGradientFitted = true;
+  upwards.order = FitOrder::Cubic;
+  std::vector<LocalFit> fits(positions.size(), upwards);
+  fits[4].gradient = { 0.0, 0.0, 1.0 };
+  const std::vector<Vector> decreasing(positions.size(), Vector{ 0.0, 0.0, 1.0 });
+  const auto contradictions = [&](bool areOfField, bool isClosed)
+  {
+    const std::vector<Vector> normals =
+      vertexNormals({}, { positions, decreasing, fits }, triangles, areOfField, isClosed);
+    int count = 0;
+    for (const SurfaceTriangle& triangle : triangles)
+    {
+      count += static_cast<int>(std::count_if(triangle.begin(), triangle.end(),
+        [&](std::size_t corner)
+        { return dot(normals[corner], normalOf(positions, triangle)) < 0.0; }));
+    }
+    return count;
+  };
+  EXPECT_GT(contradictions(true, false), 0);
+  EXPECT_GT(contradictions(false, false), 0);
+  EXPECT_EQ(contradictions(true, true), 0);
+  EXPECT_EQ(contradictions(false, true), 0);
 }
 
 /// At the rim of an unevenly sampled cloud fits extrapolate, and some fail.

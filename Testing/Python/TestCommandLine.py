@@ -225,13 +225,13 @@ class CommandLine(unittest.TestCase):
         damaged = {"cut.ply": pathlib.Path("big.ply").read_bytes()[:5000], "cut.npz": b"PK", "cut.npy": b"hello",
                    "empty.csv": b"", "head.csv": b"x,y,z,T\n", "ragged.csv": b"x,y,z,T\n1,2,3,4\n1,2,3\n",
                    "words.csv": b"x,y,z,T\n1,2,3,4\n1,2,east,5\n", "flat.csv": b"a,b,T\n1,2,3\n",
-                   "cut.vtu": b"<VTKFile"}
+                   "twice.csv": b"x,y,z,x\n1,2,3,4\n", "quotes.csv": b'""\n', "cut.vtu": b"<VTKFile"}
         for name, content in damaged.items():
             pathlib.Path(name).write_bytes(content)
         cases = [
             ("contour missing.csv T 0.3", 1, "missing.csv: No such file"), ("contour . T 0.3", 1, "Is a directory"),
             ("contour a.csv q 0.3", 1, 'no array of numbers named "q": there are T$'),
-            ("contour a.csv T 9", 1, r"No isosurface at 9: .*up to 0\."),
+            ("contour a.csv T 9", 1, r"No isosurface at 9: .*less than 0\."),
             ("contour a.csv T nan", 1, "not a number"),
             ("contour a.csv T 0.3 -o missing/a.ply", 1, "no folder .*: make it"),
             ("contour a.csv T 0.3 -o a.foo", 2, r"format of a.foo is unknown: there are .ply, .*pip install"),
@@ -243,7 +243,8 @@ class CommandLine(unittest.TestCase):
             ("contour a.csv T 0.3 --columns x,y,q", 1, 'no "q": .* there are x, y, z, T$'),
             ("contour cut.ply T 0.3", 1, "cut.ply cannot be read: it ends after"), ("contour cut.npz T 1", 1, "zip"),
             ("contour cut.npy T 0.3", 1, "magic"), ("contour empty.csv T 0.3", 1, "it is empty"),
-            ("contour head.csv T 0.3", 1, "no samples"),
+            ("contour head.csv T 0.3", 1, "no samples"), ("contour quotes.csv T 0.3", 1, "it is empty"),
+            ("contour twice.csv T 0.3", 1, 'two columns have the name "x"'),
             ("contour ragged.csv T 0", 1, "line 3 has 3 entries instead of 4"),
             ("contour words.csv T 0.3", 1, '"east" in line 3, column "z"'),
             ("contour flat.csv T 0.3", 1, "give the coordinates by --columns; there are a, b, T"),

@@ -97,9 +97,9 @@ class ContourTest(unittest.TestCase):
         for result in (contour(positions, -values, -0.55, capping=True, arrays={"large": large}, **exact),
                        contour(data, None, -0.55, capping=True, **exact)):
             np.testing.assert_array_equal(result.arrays["large"][at_samples], large[found])
-        for wrong, text in ((dict(projection="CREASE_FIT"), "capping has no creases: set projection to the cubic fit"),
-                            (dict(compute_gradients=True), "capping has no gradients"),
-                            (dict(normal_method="normals_from_field"), "capping has no gradients")):
+        for wrong, text in ((dict(projection="CREASE_FIT"), "capping has no creases. Set projection to the cubic fit"),
+                            (dict(compute_gradients=True), "capping has no gradients. Set compute_gradients off"),
+                            (dict(normal_method="normals_from_field"), "no normals from the field. Set normal_method")):
             with self.assertRaisesRegex(ValueError, text):
                 contour(positions, -values, -0.55, capping=True, **{**exact, **wrong})
         self.assertEqual(len(contour(positions, -values, -0.55, **exact).cell_arrays), 0)
@@ -141,6 +141,10 @@ class ContourTest(unittest.TestCase):
         bodies = contour(cloud_of(slab, slab[:, 0]), None, [-np.inf, 0.55], triangles=True, capping=True)
         self.assertEqual([piece.isovalue for piece in bodies.pieces].count(0.55), 1)
         np.testing.assert_allclose(bodies.volume, [0.8, 0.4], rtol=0.05)
+        large = contour(positions * 2.0**400, values, 0.0, triangles=True, capping=True)
+        with self.assertWarnsRegex(RuntimeWarning, "beyond the range of float64: choose another unit of length"):
+            self.assertFalse(np.isfinite(large.volume))
+        self.assertAlmostEqual(large.area / 2.0**800, whole.area, 12)
         with self.assertWarnsRegex(RuntimeWarning, "Not every edge has exactly two triangles, so there is no volume"):
             self.assertTrue(np.isnan(contour(positions, distance, 0.5, triangles=True).volume))
         inwards = 0.3 - np.abs(positions - 0.5).max(axis=1)
@@ -241,6 +245,10 @@ class ContourTest(unittest.TestCase):
         with self.assertWarnsRegex(RuntimeWarning, "Of the negated values, as gradient_direction takes them: No"
                                    " isosurface at -3: "):
             kept.contour(3.0, gradient_direction="ascent")
+        apart = np.vstack([positions, positions + 100.0])
+        with self.assertWarnsRegex(RuntimeWarning, "Of the negated values.* No isosurface at -0.5: all of it is in"):
+            contour(apart, np.repeat([0.0, 1.0], len(positions)), 0.5, triangles=True, gradient_direction="ascent")
+        np.testing.assert_array_equal(kept.contour(0.3, gradient_direction="ASCENT").points, outwards.points)
         with self.assertRaisesRegex(ValueError, "gradient_direction cannot be 'up': it is \"descent\" or"):
             kept.contour(0.3, gradient_direction="up")
         with self.assertRaisesRegex(TypeError, "unknown option gradient_directions: did you mean gradient_direction?"):
@@ -297,6 +305,11 @@ class ContourTest(unittest.TestCase):
         for array in (values, "distance"):
             np.testing.assert_allclose(contour(image, array, 3.0).points, expected.points)
 
+    def test_the_engine_is_told(self):
+        positions, values = samples(1000)
+        self.assertEqual(contour(positions, values, 0.3).engine, "C library")
+        self.assertEqual(contour(cloud_of(positions, values), None, 0.3).engine, "compiled filters")
+
     def test_wrong_arguments(self):
         positions, values = samples(100)
         data = cloud_of(positions, values)
@@ -321,6 +334,23 @@ class ContourTest(unittest.TestCase):
             self.same(contour(positions, values, isovalues), data, expected)
         for arguments in ((positions, values), (data, None)):
             self.assertEqual(len(contour(*arguments, range(1, 0))), 0)
+        for wrong in (True, {0.3: 1}, "0.3", None):
+            with self.assertRaisesRegex(TypeError, "isovalues are"):
+                contour(positions, values, wrong)
+        with self.assertWarnsRegex(RuntimeWarning, "No isosurface at .*: .* than .* and less than"):
+            contour(positions, values, values.max(), triangles=True)
+        with self.assertWarnsRegex(RuntimeWarning, "Choose isovalues that are less than"):
+            contour(positions, values, values.max(), triangles=True, capping=True)
+        with self.assertWarnsRegex(RuntimeWarning, "no tetrahedron of the samples crosses it. Of samples in one plane"):
+            contour(positions * [1, 1, 0], values, -np.inf, triangles=True, capping=True)
+
+    def test_arrays_that_are_not_finite(self):
+        positions, values = samples()
+        part = {"part": np.where(positions[:, 0] < 0.5, np.nan, values)}
+        for call in (lambda: contour(positions, values, 0.3, arrays=part), lambda: body(positions, part),
+                     lambda: slice_samples(positions, part, interpolation="linear")):
+            with self.assertWarnsRegex(RuntimeWarning, '"part" is not finite at [0-9]+ of [0-9]+ points'):
+                call()
 
     def test_all_compiled_classes_are_exported(self):
         modules = map(scatteredisopoints._module, scatteredisopoints._COMPILED)

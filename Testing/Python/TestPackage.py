@@ -228,7 +228,7 @@ class Arrays(unittest.TestCase):
                 (dict(triangle=True), TypeError, "did you mean triangles"),
                 (dict(DropGap=True), TypeError, "did you mean drop_gaps"),
                 (dict(angle=30.0, **triangles), TypeError, "angle is an option of points"),
-                (dict(contour_blocks=True), TypeError, "each block"), (dict(angle="30"), ValueError, "a number"),
+                (dict(contour_blocks=True), TypeError, "each block"), (dict(angle="30"), ValueError, "a real number"),
                 *([] if contouring.compiled_filters() else [(dict(controller=object()), TypeError, "controller")])):
             with self.subTest(options=list(options)), self.assertRaisesRegex(error, text):
                 contour(positions, values, 0.3, **options)
@@ -254,7 +254,7 @@ class Results(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "The scale of splats"):
                 surface.splats(wrong)
         for wrong in ("a", None, [1.0, 2.0]):
-            with self.assertRaisesRegex(ValueError, "scale cannot be .*: it is a number"):
+            with self.assertRaisesRegex(ValueError, "scale cannot be .*: it is a real number"):
                 surface.splats(wrong)
         for wrong in (np.ones((len(surface), 2, 3)), np.ones(3)):
             surface.arrays["wrong"] = wrong
@@ -420,6 +420,9 @@ class Results(unittest.TestCase):
                 self.assertIn(name + "=", contour.__doc__)
         for owner in (contour, probe, gradient, Samples, Isosurface, Interpolator, scatteredisopoints.load_plugin):
             self.assertNotRegex(pydoc.render_doc(owner), r"docs/|\.md\b")  # which the wheel lacks
+        page = pydoc.plain(pydoc.render_doc(scatteredisopoints))
+        for name in ("body", "contour", "gradient", "probe", "slice_samples", "Interpolator", "Isosurface", "Samples"):
+            self.assertRegex(page, rf"(?m)^    (class )?{name}\(")
 
 
 class KeptTrees(unittest.TestCase):
@@ -450,6 +453,7 @@ class KeptTrees(unittest.TestCase):
         surface = samples.contour(0.3, keep_tree=False)
         self.assertIsNone(tree())
         self.assertEqual((samples.range, samples.skipped), ((values.min(), values.max()), 0))
+        self.assertRegex(repr(samples), "freed")
         with self.assertRaisesRegex(ValueError, "keep_tree was False: call replace_values"):
             samples.contour(0.3)
         samples.replace_values(values)

@@ -56,9 +56,10 @@ class Values(unittest.TestCase):
 
     def test_types_and_values_that_are_missing(self):
         lacking = np.where(RANDOM.random(20000) < 0.1, np.nan, wave(POSITIONS)).astype(np.float32)
-        sliced = slice_samples(POSITIONS.astype(np.float32), {
-            "lacking": lacking, "byte": np.rint(255 * POSITIONS[:, 2]).astype(np.uint8),
-            "masked": np.ma.masked_less(POSITIONS[:, 0], 0.4)}, "z")
+        with self.assertWarnsRegex(RuntimeWarning, '"masked" is not finite at [0-9]+ of [0-9]+ points'):
+            sliced = slice_samples(POSITIONS.astype(np.float32), {
+                "lacking": lacking, "byte": np.rint(255 * POSITIONS[:, 2]).astype(np.uint8),
+                "masked": np.ma.masked_less(POSITIONS[:, 0], 0.4)}, "z")
         found = sliced.arrays
         self.assertEqual([sliced.points.dtype, *(each.dtype for each in found.values())],
                          [np.float32, np.float32, np.uint8, float])
@@ -132,6 +133,7 @@ class KeptSamples(unittest.TestCase):
             with warnings.catch_warnings():
                 warnings.simplefilter("error")
                 sliced = samples.slice("z", arrays={"wave": wave(POSITIONS)})
+            with self.assertWarnsRegex(RuntimeWarning, '"values" is not finite at [0-9]+ of [0-9]+ points'):
                 own = samples.slice("z").arrays["values"]
             self.assertEqual(sliced.points.tobytes(), expected.points.tobytes())
             self.assertEqual(sliced.arrays["wave"].tobytes(), expected.arrays["wave"].tobytes())
@@ -154,6 +156,15 @@ class KeptSamples(unittest.TestCase):
             self.assertEqual(found["material"].tolist(), np.where(found["place"][:, 0] < 0.5, 3, large).tolist())
 
 
+def only_at_samples(places):
+    return ball(places) if len(places) == len(POSITIONS) else np.full(len(places), np.nan)
+
+
+def moves_places(places):
+    places -= 0.5
+    return places[:, 0]
+
+
 class Calls(unittest.TestCase):
     def test_empty_slices(self):
         for arguments, text in (
@@ -173,6 +184,10 @@ class Calls(unittest.TestCase):
                 (dict(function=ball, normal="x"), TypeError, "normal"),
                 (dict(function=lambda places: places), ValueError, "one number for each"),
                 (dict(function=lambda places: np.full(len(places), np.inf)), ValueError, "not finite at 20000"),
+                (dict(function=lambda places: places[:, 0] + 1j), TypeError, "complex128: it is to return real"),
+                (dict(function=only_at_samples), ValueError, "not finite at [0-9]+ places between samples"),
+                (dict(function=moves_places), ValueError, "read-only"),
+                (dict(offsets=np.nan), ValueError, "An offset is not a number"),
                 (dict(interpolation="cubic"), ValueError, '"linear" or "nearest"'), (dict(angle=3), TypeError, "angle"),
                 (dict(offsets=None), TypeError, "isovalues"), (dict(threads=0), ValueError, "threads")):
             with self.subTest(text), self.assertRaisesRegex(error, text):
