@@ -16,7 +16,7 @@
 #include "Core/Splat/SplatPolygons.h"
 #include "Core/Tree/SampleTree.h"
 #include "Core/Triangles/ExtractTriangles.h"
-#include "Core/Triangles/SurfacePart.h"
+#include "Core/Triangles/OwnedTriangles.h"
 #include "Core/Triangles/TriangleGeometry.h"
 #include "Core/Triangles/VertexNormals.h"
 
@@ -53,22 +53,21 @@ template <class TSample>
 ExtractedIsosurface partOnRank(const Execution& execution, SharedRanks<TSample>& ranks,
   const SampleTree<TSample>& tree, const ExtractedIsosurface& all, int rings)
 {
-  std::vector<std::size_t> vertexRanks(all.surface.size());
-  forEachIndex(execution, vertexRanks.size(),
+  const std::vector<std::size_t> vertexRanks = tabulated<std::size_t>(execution, all.surface.size(),
     [&](std::size_t vertex)
     {
       const EdgeLeaves& leaves = all.surface.leaves[all.surface.edgeBegin(vertex)];
-      vertexRanks[vertex] = ranks.ownerOf(firstPlaceOf(tree, leaves));
+      return ranks.ownerOf(firstPlaceOf(tree, leaves));
     });
   const auto rank = static_cast<std::size_t>(ranks.processes().rank());
-  SurfacePart part = partOfRank(execution, all.triangles, vertexRanks, rank, rings);
+  OwnedTriangles owned = ownedTriangles(execution, all.triangles, vertexRanks, rank, rings);
   ExtractedIsosurface result = withSplats(execution, tree,
-    chosenIsopoints(execution, all.surface, part.vertices), all.splats, part.vertices);
-  result.normals = chosenOf(execution, all.normals, part.vertices);
-  result.areGhosts = std::move(part.areGhosts);
-  result.triangles = std::move(part.triangles);
-  result.areCaps = chosenOf(execution, all.areCaps, part.triangleNumbers);
-  result.ghostTriangles = part.ghostCount;
+    chosenIsopoints(execution, all.surface, owned.vertices), all.splats, owned.vertices);
+  result.normals = chosenOf(execution, all.normals, owned.vertices);
+  result.areGhosts = std::move(owned.areGhosts);
+  result.triangles = std::move(owned.triangles);
+  result.areCaps = chosenOf(execution, all.areCaps, owned.triangleNumbers);
+  result.ghostTriangles = owned.ghostCount;
   result.droppedInGaps = rank == 0 ? all.droppedInGaps : 0;
   return result;
 }

@@ -5,6 +5,7 @@
 #include "Core/Places/FindNeighborhoods.h"
 #include "Core/Places/ProbePlaces.h"
 #include "Core/Ranks/ItemNumbers.h"
+#include "Core/Ranks/NodeExchange.h"
 #include "Core/Tree/Scaling.h"
 
 #include <algorithm>
@@ -90,7 +91,7 @@ Neighborhoods IsosurfaceExtractor::findNeighborhoods(
         return found;
       };
       return this->Processes
-               ? find(SharedNodes<TSample>(*this->Processes, cloud.tree, cloud.begins))
+               ? find(NodeExchange<TSample>(*this->Processes, cloud.tree, cloud.begins))
                : find(OwnNodes<TSample>(execution, cloud.tree));
     },
     this->Held);

@@ -140,17 +140,21 @@ inline void forBatches(
 /// thread.
 /// @throws Aborted, and whatever `work` throws
 template <class Work>
-void forEachIndex(const Execution& execution, std::size_t count, const Work& work)
+void forEachIndex(
+  const Execution& execution, std::size_t count, const Work& work,
+  const BatchDone& batchDone = [](double) {})
 {
   constexpr std::size_t grain = 4096;
-  forBatches(execution, count, 4 * grain, grain,
+  forBatches(
+    execution, count, 4 * grain, grain,
     [&work](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
         work(i);
       }
-    });
+    },
+    batchDone);
 }
 
 /// The same in ascending order and in the calling thread, for items that depend on earlier ones.

@@ -9,6 +9,7 @@
 #include <map>
 #include <mutex>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,14 @@ struct IndexSpan
   const TId* end() const { return this->first + this->count; }
   std::size_t operator[](std::size_t i) const { return static_cast<std::size_t>(this->first[i]); }
 };
+
+/// 0, ..., count - 1.
+inline std::vector<std::size_t> numbersBelow(std::size_t count)
+{
+  std::vector<std::size_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), std::size_t{ 0 });
+  return numbers;
+}
 
 /// Offsets of concatenated lists, from `first` on, and the end of the last one.
 template <class T>
@@ -118,6 +127,39 @@ std::vector<T> collected(
   return joined(execution, inOrder, beginsOf(inOrder));
 }
 
+/// The elements found at the items 0 .. count - 1, in their order.
+/// @param collect(item, found) appends the elements of an item; called from any thread, takes at
+/// most microseconds
+/// @throws Aborted, std::bad_alloc, and whatever `collect` throws
+template <class T, class Collect>
+std::vector<T> collectedFromEach(
+  const Execution& execution, std::size_t count, const Collect& collect,
+  const BatchDone& batchDone = [](double) {})
+{
+  constexpr std::size_t grain = 4096;
+  return collected<T>(
+    execution, { count, 4 * grain, grain },
+    [&collect](std::size_t begin, std::size_t end, std::vector<T>& found)
+    {
+      for (std::size_t item = begin; item < end; ++item)
+      {
+        collect(item, found);
+      }
+    },
+    batchDone);
+}
+
+/// valueOf(0), ..., valueOf(count - 1).
+/// @param valueOf(item) called from any thread; takes at most microseconds
+/// @throws Aborted, std::bad_alloc, and whatever `valueOf` throws
+template <class T, class ValueOf>
+std::vector<T> tabulated(const Execution& execution, std::size_t count, const ValueOf& valueOf)
+{
+  std::vector<T> values(count);
+  forEachIndex(execution, count, [&](std::size_t item) { values[item] = valueOf(item); });
+  return values;
+}
+
 /// The ascending items 0 .. count - 1 that pass a test.
 /// @param isWanted(item) called from any thread; takes at most microseconds
 /// @throws Aborted, std::bad_alloc, and whatever `isWanted` throws
@@ -125,18 +167,79 @@ template <class IsWanted>
 std::vector<std::size_t> itemsThat(
   const Execution& execution, std::size_t count, const IsWanted& isWanted)
 {
-  constexpr std::size_t grain = 4096;
-  return collected<std::size_t>(execution, { count, 4 * grain, grain },
-    [&isWanted](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
+  return collectedFromEach<std::size_t>(execution, count,
+    [&isWanted](std::size_t item, std::vector<std::size_t>& found)
     {
-      for (std::size_t item = begin; item < end; ++item)
+      if (isWanted(item))
       {
-        if (isWanted(item))
-        {
-          found.push_back(item);
-        }
+        found.push_back(item);
       }
     });
+}
+
+/// The same for a test that may need samples of other ranks. Collective.
+/// @param ranks SingleRank or SharedRanks
+template <class TRanks, class IsWanted>
+std::vector<std::size_t> itemsThat(
+  const Execution& execution, TRanks& ranks, std::size_t count, const IsWanted& isWanted,
+  const BatchDone& batchDone = [](double) {})
+{
+  constexpr std::size_t grain = 256;
+  std::vector<char> marks(count, 0);
+  ranks.forEach(
+    execution, { count, 8 * grain, grain }, []() { return 0; },
+    [&](int, std::size_t i) { marks[i] = isWanted(i) ? 1 : 0; }, batchDone);
+  return itemsThat(execution, count, [&marks](std::size_t i) { return marks[i] != 0; });
+}
+
+/// all[i] for each index i. @throws std::bad_alloc, Aborted
+/// @param all if empty, so is the result
+template <class T>
+std::vector<T> chosenOf(
+  const Execution& execution, const std::vector<T>& all, const std::vector<std::size_t>& indices)
+{
+  if (all.empty())
+  {
+    return {};
+  }
+  return tabulated<T>(execution, indices.size(), [&](std::size_t i) { return all[indices[i]]; });
+}
+
+/// The elements that pass a test, in their order. @throws Aborted, std::bad_alloc
+/// @param isWanted(element) called from any thread; takes at most microseconds
+template <class T, class IsWanted>
+std::vector<T> chosenThat(
+  const Execution& execution, const std::vector<T>& all, const IsWanted& isWanted)
+{
+  return chosenOf(execution, all,
+    itemsThat(execution, all.size(), [&](std::size_t i) { return isWanted(all[i]); }));
+}
+
+/// Chooses lists from concatenated ones.
+/// @param begins offsets of all lists, and the end of the last one; if empty, so is the result
+/// @param elements receives the element indices of the chosen lists
+/// @returns offsets of the chosen lists, and the end of the last one
+/// @throws std::bad_alloc, Aborted
+inline std::vector<std::size_t> chosenLists(const Execution& execution,
+  const std::vector<std::size_t>& begins, const std::vector<std::size_t>& indices,
+  std::vector<std::size_t>& elements)
+{
+  if (begins.empty())
+  {
+    return {};
+  }
+  std::vector<std::size_t> chosen(1, 0);
+  chosen.reserve(indices.size() + 1);
+  forEachInOrder(execution, indices.size(),
+    [&](std::size_t i)
+    {
+      for (std::size_t k = begins[indices[i]]; k < begins[indices[i] + 1]; ++k)
+      {
+        elements.push_back(k);
+      }
+      chosen.push_back(elements.size());
+    });
+  return chosen;
 }
 
 /// The items at each place, such as the triangles at each vertex: contiguous lists, each ascending.
@@ -195,20 +298,12 @@ std::vector<std::size_t> markedOf(const Execution& execution, const std::vector<
   return itemsThat(execution, marks.size(), [&marks](std::size_t i) { return bool(marks[i]); });
 }
 
-/// Removes the marked elements. @throws Aborted, after which some are moved
+/// Removes the marked elements. @throws Aborted, std::bad_alloc
 template <class T>
 void dropMarked(const Execution& execution, const std::vector<char>& marks, std::vector<T>& all)
 {
-  std::size_t kept = 0;
-  forEachInOrder(execution, all.size(),
-    [&](std::size_t i)
-    {
-      if (!marks[i])
-      {
-        all[kept++] = all[i];
-      }
-    });
-  all.resize(kept);
+  all = chosenOf(execution, all,
+    itemsThat(execution, all.size(), [&marks](std::size_t i) { return marks[i] == 0; }));
 }
 
 template <class T>
@@ -347,6 +442,33 @@ inline std::vector<std::size_t> sortedUnique(
   const Execution& execution, const std::vector<std::size_t>& numbers, std::uint64_t count)
 {
   return sortedUnique(execution, numbers, count, [](std::size_t number) { return number; });
+}
+
+/// The items 0 .. count - 1 in the order of their keys, then of their numbers. O(n log n)
+/// @param keyOf(item) called from any thread
+/// @param leadOf(key) a number below leadCount, monotonic in the order of keys
+/// @throws Aborted, std::bad_alloc
+template <class KeyOf, class LeadOf>
+std::vector<std::size_t> orderByKeys(const Execution& execution, std::size_t count,
+  std::uint64_t leadCount, const KeyOf& keyOf, const LeadOf& leadOf)
+{
+  using Item = std::pair<std::decay_t<decltype(keyOf(count))>, std::size_t>;
+  std::vector<Item> items =
+    tabulated<Item>(execution, count, [&](std::size_t item) { return Item(keyOf(item), item); });
+  items =
+    sortedUnique(execution, items, leadCount, [&](const Item& item) { return leadOf(item.first); });
+  return tabulated<std::size_t>(execution, count, [&](std::size_t i) { return items[i].second; });
+}
+
+/// The place of each number in an order, which has each once; undefined for numbers that it lacks.
+/// @param count exceeds all numbers
+/// @throws Aborted, std::bad_alloc
+inline std::vector<std::size_t> placesIn(
+  const Execution& execution, const std::vector<std::size_t>& order, std::size_t count)
+{
+  std::vector<std::size_t> places(count);
+  forEachIndex(execution, order.size(), [&](std::size_t place) { places[order[place]] = place; });
+  return places;
 }
 
 } // namespace isopoint

@@ -9,9 +9,11 @@
 #include "Core/Extraction/Isosurface.h"
 #include "Core/Extraction/NarrowBand.h"
 #include "Core/Extraction/NeighborhoodFits.h"
+#include "Core/Neighbors/GapCriterion.h"
 #include "Core/Neighbors/GapSpread.h"
 #include "Core/Neighbors/NeighborhoodCache.h"
 #include "Core/Tree/Path.h"
+#include "Core/Tree/SampleBounds.h"
 
 #include <algorithm>
 #include <array>
@@ -110,50 +112,36 @@ FoundEdges<TSample> findEdges(const Execution& execution, ExtractionContext<TSam
   return found;
 }
 
-/// Crossing edges as parts of a surface for GapSpread; edges with a common end are connected.
+/// Crossing edges as the elements of GapSpread; edges with a common end are connected.
 template <class TSample>
-class EdgeParts
+class ConnectedEdges
 {
 public:
   /// @param edges each once
   /// @param nodeCount of the tree
-  EdgeParts(const std::vector<CrossingEdge<TSample>>& edges, std::size_t nodeCount)
+  ConnectedEdges(const std::vector<CrossingEdge<TSample>>& edges, std::size_t nodeCount)
     : Edges(edges)
     , NodeCount(nodeCount)
   {
   }
 
   std::size_t size() const { return this->Edges.size(); }
-  bool isCounted(std::size_t) const { return true; }
 
-  template <class TRanks>
-  void unite(TRanks& ranks, std::vector<std::size_t>& found) const
+  void connect(const Execution& execution, const std::vector<std::size_t>& edges)
   {
-    ranks.uniteEdges(this->Edges, found);
-  }
-
-  template <class Test>
-  bool anyEdge(std::size_t edge, const Test& test) const
-  {
-    return test(static_cast<std::size_t>(this->Edges[edge].firstLeaf),
-      static_cast<std::size_t>(this->Edges[edge].secondLeaf));
+    if (!this->EdgesAt && !edges.empty())
+    {
+      this->IsVisited.resize(this->NodeCount, 0);
+      this->EdgesAt.emplace(execution, this->NodeCount, this->size(),
+        [this](std::size_t i) { return this->leavesOf(i); });
+    }
   }
 
   /// Visits the edges at both ends; skips ends that were visited before.
   template <class Visit>
-  void forEachNeighbor(const Execution& execution, std::size_t edge, const Visit& visit)
+  void forEachNeighbor(std::size_t edge, const Visit& visit)
   {
-    const auto leavesOfEdge = [this](std::size_t i)
-    {
-      return std::array{ static_cast<std::size_t>(this->Edges[i].firstLeaf),
-        static_cast<std::size_t>(this->Edges[i].secondLeaf) };
-    };
-    if (!this->EdgesAt)
-    {
-      this->IsVisited.resize(this->NodeCount, 0);
-      this->EdgesAt.emplace(execution, this->NodeCount, this->Edges.size(), leavesOfEdge);
-    }
-    for (const std::size_t leaf : leavesOfEdge(edge))
+    for (const std::size_t leaf : this->leavesOf(edge))
     {
       if (!this->IsVisited[leaf])
       {
@@ -165,6 +153,12 @@ public:
   }
 
 private:
+  std::array<std::size_t, 2> leavesOf(std::size_t edge) const
+  {
+    return { static_cast<std::size_t>(this->Edges[edge].firstLeaf),
+      static_cast<std::size_t>(this->Edges[edge].secondLeaf) };
+  }
+
   const std::vector<CrossingEdge<TSample>>& Edges;
   const std::size_t NodeCount;
   // By leaf, once there is a gap.
@@ -182,8 +176,8 @@ std::vector<char> edgesInGaps(const Execution& execution, const SampleTree<TSamp
   TRanks& ranks, const std::vector<CrossingEdge<TSample>>& edges,
   const std::vector<CrossingEdge<TSample>>& strong)
 {
-  EdgeParts<TSample> parts(edges, tree.nodes.size());
-  GapSpread<TSample, TRanks, EdgeParts<TSample>> spread(execution, tree, ranks, parts);
+  ConnectedEdges<TSample> connected(edges, tree.nodes.size());
+  GapSpread<TRanks, ConnectedEdges<TSample>> spread(execution, ranks, connected);
   std::vector<std::size_t> seeds(strong.size());
   forEachIndex(execution, strong.size(),
     [&](std::size_t i)
@@ -192,8 +186,21 @@ std::vector<char> edgesInGaps(const Execution& execution, const SampleTree<TSamp
       seeds[i] = static_cast<std::size_t>(found - edges.begin());
     });
   seeds = sortedUnique(execution, seeds, edges.size());
-  parts.unite(ranks, seeds);
-  spread.spread(GapCriterion::weak(), std::move(seeds));
+  ranks.uniteEdges(edges, seeds);
+  SampleBounds<TSample> bounds(tree);
+  spread.spread(std::move(seeds),
+    [&](const std::vector<std::size_t>& some)
+    {
+      std::vector<std::size_t> weak = chosenOf(execution, some,
+        itemsThat(execution, ranks, some.size(),
+          [&](std::size_t i)
+          {
+            return GapCriterion::weak().drops(tree, bounds, tree.sampleOf(edges[some[i]].firstLeaf),
+              tree.sampleOf(edges[some[i]].secondLeaf));
+          }));
+      ranks.uniteEdges(edges, weak);
+      return weak;
+    });
   return spread.takeInGap();
 }
 
@@ -242,37 +249,32 @@ Isosurface placeIsopoints(const Execution& execution, ExtractionContext<TSample>
   surface.fits = std::move(fits);
   const auto positionAt = [&context](typename TSample::Id leaf)
   { return positionOf(context.tree.sampleOf(leaf)); };
-  constexpr std::size_t grain = 4096;
-  forBatches(
-    execution, surface.size(), 8 * grain, grain,
-    [&](std::size_t begin, std::size_t end)
+  forEachIndex(
+    execution, surface.size(),
+    [&](std::size_t i)
     {
-      for (std::size_t i = begin; i < end; ++i)
+      const std::size_t first = surface.edgeBegin(i);
+      const CrossingEdge<TSample>& own = isopoints.edges[first];
+      const Vector along = positionAt(own.secondLeaf) - positionAt(own.firstLeaf);
+      const bool isDecreasing = !(context.leafValues.at(own.firstLeaf) < context.isovalue);
+      surface.decreasingEdges[i] = isDecreasing ? along : -along;
+      const auto crossingOf = [&](const CrossingEdge<TSample>& edge) {
+        return interpolate(positionAt(edge.firstLeaf), positionAt(edge.secondLeaf), edge.crossing);
+      };
+      const bool followsFit = isMoved && surface.fits[i].order;
+      const Vector start = isopoints.starts.empty() ? crossingOf(own) : isopoints.starts[i];
+      surface.positions[i] = followsFit ? surface.fits[i].position : start;
+      const Vector move = surface.positions[i] - start;
+      const std::size_t last = surface.edgeBegin(i + 1);
+      for (std::size_t k = first; k < last; ++k)
       {
-        const std::size_t first = surface.edgeBegin(i);
-        const CrossingEdge<TSample>& own = isopoints.edges[first];
-        const Vector along = positionAt(own.secondLeaf) - positionAt(own.firstLeaf);
-        const bool isDecreasing = !(context.leafValues.at(own.firstLeaf) < context.isovalue);
-        surface.decreasingEdges[i] = isDecreasing ? along : -along;
-        const auto crossingOf = [&](const CrossingEdge<TSample>& edge) {
-          return interpolate(
-            positionAt(edge.firstLeaf), positionAt(edge.secondLeaf), edge.crossing);
-        };
-        const bool followsFit = isMoved && surface.fits[i].order;
-        const Vector start = isopoints.starts.empty() ? crossingOf(own) : isopoints.starts[i];
-        surface.positions[i] = followsFit ? surface.fits[i].position : start;
-        const Vector move = surface.positions[i] - start;
-        const std::size_t last = surface.edgeBegin(i + 1);
-        for (std::size_t k = first; k < last; ++k)
-        {
-          const CrossingEdge<TSample>& edge = isopoints.edges[k];
-          const Vector place = last == first + 1 ? surface.positions[i] : crossingOf(edge) + move;
-          const double parameter = followsFit ? nearestParameter(positionAt(edge.firstLeaf),
-                                                  positionAt(edge.secondLeaf), place)
-                                              : edge.crossing;
-          surface.edges[k] = { { edge.first, edge.second }, parameter };
-          surface.leaves[k] = { edge.firstLeaf, edge.secondLeaf };
-        }
+        const CrossingEdge<TSample>& edge = isopoints.edges[k];
+        const Vector place = last == first + 1 ? surface.positions[i] : crossingOf(edge) + move;
+        const double parameter = followsFit ? nearestParameter(positionAt(edge.firstLeaf),
+                                                positionAt(edge.secondLeaf), place)
+                                            : edge.crossing;
+        surface.edges[k] = { { edge.first, edge.second }, parameter };
+        surface.leaves[k] = { edge.firstLeaf, edge.secondLeaf };
       }
     },
     execution.progress);

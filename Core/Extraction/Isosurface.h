@@ -13,7 +13,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace isopoint
@@ -161,48 +160,6 @@ struct Isosurface
   }
 };
 
-/// all[i] for each index i. @throws std::bad_alloc, Aborted
-/// @param all if empty, so is the result
-template <class T>
-std::vector<T> chosenOf(
-  const Execution& execution, const std::vector<T>& all, const std::vector<std::size_t>& indices)
-{
-  if (all.empty())
-  {
-    return {};
-  }
-  std::vector<T> chosen(indices.size());
-  forEachIndex(execution, indices.size(), [&](std::size_t i) { chosen[i] = all[indices[i]]; });
-  return chosen;
-}
-
-/// Chooses lists from concatenated ones.
-/// @param begins offsets of all lists, and the end of the last one; if empty, so is the result
-/// @param elements receives the element indices of the chosen lists
-/// @returns offsets of the chosen lists, and the end of the last one
-/// @throws std::bad_alloc, Aborted
-inline std::vector<std::size_t> chosenLists(const Execution& execution,
-  const std::vector<std::size_t>& begins, const std::vector<std::size_t>& indices,
-  std::vector<std::size_t>& elements)
-{
-  if (begins.empty())
-  {
-    return {};
-  }
-  std::vector<std::size_t> chosen(1, 0);
-  chosen.reserve(indices.size() + 1);
-  forEachInOrder(execution, indices.size(),
-    [&](std::size_t i)
-    {
-      for (std::size_t k = begins[indices[i]]; k < begins[indices[i] + 1]; ++k)
-      {
-        elements.push_back(k);
-      }
-      chosen.push_back(elements.size());
-    });
-  return chosen;
-}
-
 /// The isopoints of some indices, in their order, without coincident samples.
 /// @throws std::bad_alloc, Aborted
 inline Isosurface chosenIsopoints(
@@ -225,22 +182,17 @@ template <class TSample>
 std::vector<CoincidentSamples> coincidentEnds(
   const Execution& execution, const SampleTree<TSample>& tree, const std::vector<EdgeLeaves>& edges)
 {
-  constexpr std::size_t grain = 4096;
-  std::vector<std::size_t> leaves =
-    collected<std::size_t>(execution, { edges.size(), 4 * grain, grain },
-      [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
+  std::vector<std::size_t> leaves = collectedFromEach<std::size_t>(execution, edges.size(),
+    [&](std::size_t i, std::vector<std::size_t>& found)
+    {
+      for (const std::size_t leaf : { edges[i].first, edges[i].second })
       {
-        for (std::size_t i = begin; i < end; ++i)
+        if (tree.nodes[leaf].count() > 1)
         {
-          for (const std::size_t leaf : { edges[i].first, edges[i].second })
-          {
-            if (tree.nodes[leaf].count() > 1)
-            {
-              found.push_back(leaf);
-            }
-          }
+          found.push_back(leaf);
         }
-      });
+      }
+    });
   leaves = sortedUnique(execution, leaves, tree.nodes.size());
   std::vector<CoincidentSamples> result(leaves.size());
   forEachIndex(execution, leaves.size(),

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace isopoint
@@ -80,57 +81,43 @@ private:
   LocalFitter Fitter;
 };
 
-/// The place of an edge in tree order.
-struct TreePlace : SampleEdge // with places of samples instead of ids
-{
-  std::size_t edge; // several can be the same: see Isosurface
-
-  bool operator<(const TreePlace& other) const
-  {
-    return SampleEdge::operator==(other) ? this->edge < other.edge : SampleEdge::operator<(other);
-  }
-  bool operator==(const TreePlace& other) const { return this->edge == other.edge; }
-};
-
-/// Edges in tree order: consecutive ones are close, whatever the samples' ids.
+/// The order of edges in the tree: consecutive ones are close, whatever the samples' ids.
 template <class TSample>
-std::vector<TreePlace> placesOf(const Execution& execution, const SampleTree<TSample>& tree,
+std::vector<std::size_t> orderInTree(const Execution& execution, const SampleTree<TSample>& tree,
   const std::vector<CrossingEdge<TSample>>& edges)
 {
   const auto beginOf = [&tree](typename TSample::Id leaf) -> std::uint64_t
   { return tree.nodes[static_cast<std::size_t>(leaf)].begin; };
-  std::vector<TreePlace> places(edges.size());
-  forEachIndex(execution, edges.size(),
-    [&](std::size_t i)
-    {
-      const auto [lower, upper] =
-        std::minmax({ beginOf(edges[i].firstLeaf), beginOf(edges[i].secondLeaf) });
-      places[i] = { { lower, upper }, i };
-    });
-  return sortedUnique(
-    execution, places, tree.samples.size(), [](const TreePlace& place) { return place.first; });
+  using Places = std::pair<std::uint64_t, std::uint64_t>; // of both ends, ascending
+  return orderByKeys(
+    execution, edges.size(), tree.samples.size(),
+    [&](std::size_t i) -> Places {
+      return std::minmax({ beginOf(edges[i].firstLeaf), beginOf(edges[i].secondLeaf) });
+    },
+    [](const Places& places) { return places.first; });
 }
 
-/// Fits to the samples around the edges at some places (see SampleGatherer and LocalFitter).
-/// Fastest in tree order, since consecutive edges share samples. Collective.
+/// Fits to the samples around some edges (see SampleGatherer and LocalFitter). Fastest in tree
+/// order, since consecutive edges share samples. Collective.
 /// @param ranks SingleRank or SharedRanks
 /// @param starts the edges' isopoints before they are moved; empty for linear interpolation
-/// @param fits one per edge; those at the places are set, each from its samples alone
+/// @param wanted the indices of the edges
+/// @param fits one per edge; the wanted ones are set, each from its samples alone
 /// @throws Aborted, std::bad_alloc
 template <class TSample, class TRanks>
 void fitAt(const Execution& execution, ExtractionContext<TSample>& context, TRanks& ranks,
   FitRequest request, const std::vector<CrossingEdge<TSample>>& edges,
-  const std::vector<Vector>& starts, const std::vector<TreePlace>& places,
+  const std::vector<Vector>& starts, const std::vector<std::size_t>& wanted,
   std::vector<LocalFit>& fits)
 {
   // Small batches: fits are slow where cells touch hundreds of others, and those with creases.
   const std::size_t grain = request.highest == FitOrder::Crease ? 16 : 256;
   ranks.forEach(
-    execution, { places.size(), 4 * grain, grain },
+    execution, { wanted.size(), 4 * grain, grain },
     [&]() { return NeighborhoodFitter<TSample>(context, request); },
     [&](NeighborhoodFitter<TSample>& fitter, std::size_t i)
     {
-      const std::size_t edge = places[i].edge;
+      const std::size_t edge = wanted[i];
       fits[edge] = fitter.fit(edges[edge], starts.empty() ? nullptr : &starts[edge]);
     },
     execution.progress);
@@ -143,8 +130,8 @@ std::vector<LocalFit> fitNeighborhoods(const Execution& execution,
   const std::vector<CrossingEdge<TSample>>& edges, const std::vector<Vector>& starts)
 {
   std::vector<LocalFit> fits(edges.size());
-  fitAt(execution, context, ranks, request, edges, starts, placesOf(execution, context.tree, edges),
-    fits);
+  fitAt(execution, context, ranks, request, edges, starts,
+    orderInTree(execution, context.tree, edges), fits);
   return fits;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Core/Base/Execution.h"
+#include "Core/Base/Lists.h"
 #include "Core/Extraction/IsopointNeighbors.h"
 #include "Core/Extraction/Isosurface.h"
 #include "Core/Extraction/SingleRank.h"
@@ -9,7 +10,6 @@
 #include "Core/Tree/SampleTree.h"
 
 #include <cstddef>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -22,9 +22,8 @@ class AllPoints
 {
 public:
   explicit AllPoints(std::size_t count)
-    : Indices(count)
+    : Indices(numbersBelow(count))
   {
-    std::iota(this->Indices.begin(), this->Indices.end(), std::size_t{ 0 });
   }
 
   /// The points whose cells are cut on this rank; consecutive points should be close.
@@ -100,9 +99,7 @@ public:
 
   std::vector<std::size_t> owned() const
   {
-    std::vector<std::size_t> places(this->Order.size());
-    forEachIndex(this->Exec, places.size(), [&](std::size_t i) { places[this->Order[i]] = i; });
-    return places;
+    return placesIn(this->Exec, this->Order, this->Order.size());
   }
   std::vector<std::size_t> ghosts() const { return {}; }
 

@@ -3,9 +3,6 @@
 
 #include "Core/Base/Execution.h"
 #include "Core/Base/Lists.h"
-#include "Core/Neighbors/GapCriterion.h"
-#include "Core/Tree/SampleBounds.h"
-#include "Core/Tree/SampleTree.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -15,106 +12,113 @@
 namespace isopoint
 {
 
-/// Smaller pieces of tetrahedra next to a gap are dropped with it.
-inline constexpr std::size_t smallestPiece = 8;
-
-/// Finds the parts of a surface, edges or tetrahedra, that lie in gaps of the cloud: parts that the
-/// weak gap criterion rejects and that are connected with a seed through other such parts. If ranks
-/// share the tree, all functions are collective.
+/// Finds the elements of a surface or body, edges or tetrahedra, that lie in gaps of the cloud. If
+/// ranks share the tree, all functions are collective.
 /// @tparam TRanks SingleRank or SharedRanks
-/// @tparam TParts has
+/// @tparam TElements has
 /// - size();
-/// - anyEdge(part, test): whether test(leaf, otherLeaf) is true for any edge of a part;
-/// - isCounted(part): whether this rank examines the part;
-/// - unite(ranks, parts): adds parts that other ranks found, and sorts;
-/// - forEachNeighbor(execution, part, visit): visits the parts connected with a part
-template <class TSample, class TRanks, class TParts>
+/// - connect(execution, elements): makes the neighbors of elements known, which may add elements;
+/// - forEachNeighbor(element, visit): visits the elements connected with an element, as far as they
+/// are known;
+/// - isConnected(element): whether they all are
+template <class TRanks, class TElements>
 class GapSpread
 {
 public:
-  GapSpread(
-    const Execution& execution, const SampleTree<TSample>& tree, TRanks& ranks, TParts& parts)
+  GapSpread(const Execution& execution, TRanks& ranks, TElements& elements)
     : Exec(execution)
-    , Tree(tree)
-    , Bounds(tree)
     , Ranks(ranks)
-    , Parts(parts)
+    , Elements(elements)
   {
+    this->resize();
   }
 
-  /// The candidates with an edge that a criterion rejects, on any rank.
-  /// @throws std::bad_alloc, Aborted, FailedElsewhere; so do the other functions
-  template <class TCriterion>
-  std::vector<std::size_t> rejectedAmong(
-    const TCriterion& criterion, const std::vector<std::size_t>& candidates)
-  {
-    constexpr std::size_t grain = 256;
-    std::vector<char> marks(candidates.size(), 0);
-    this->Ranks.forEach(
-      this->Exec, { candidates.size(), 8 * grain, grain }, []() { return 0; },
-      [&](int, std::size_t i)
-      {
-        const std::size_t part = candidates[i];
-        marks[i] = this->Parts.isCounted(part) && this->isRejected(criterion, part) ? 1 : 0;
-      });
-    std::vector<std::size_t> found = markedOf(this->Exec, marks);
-    std::transform(
-      found.begin(), found.end(), found.begin(), [&](std::size_t i) { return candidates[i]; });
-    this->Parts.unite(this->Ranks, found);
-    return found;
-  }
-
-  /// Marks the parts in gaps.
-  /// @param weak the weak criterion
+  /// Marks the weak seeds, and the weak elements that are connected with one through others.
   /// @param front the seeds, each once
-  template <class TCriterion>
-  void spread(const TCriterion& weak, std::vector<std::size_t> front)
+  /// @param weakAmong(elements) those of some elements that are weak, on any rank
+  /// @throws std::bad_alloc, Aborted, FailedElsewhere; so does dropFragments()
+  template <class WeakAmong>
+  void spread(std::vector<std::size_t> front, const WeakAmong& weakAmong)
   {
-    this->IsReached.resize(this->Parts.size(), 0);
-    this->IsInGap.resize(this->Parts.size(), 0);
     forEachIndex(this->Exec, front.size(), [&](std::size_t i) { this->IsReached[front[i]] = 1; });
     while (this->Ranks.isAny(!front.empty()))
     {
-      front = this->next(this->rejectedAmong(weak, front));
+      front = this->next(weakAmong(front));
     }
   }
 
-  /// By part, whether it is in a gap.
-  const std::vector<char>& isInGap() const { return this->IsInGap; }
-
-  /// The same, moved out.
-  std::vector<char> takeInGap() { return std::move(this->IsInGap); }
-
-  /// By part, whether it is a seed or connected with a part in a gap.
-  const std::vector<char>& isReached() const { return this->IsReached; }
-
-private:
-  template <class TCriterion>
-  bool isRejected(const TCriterion& criterion, std::size_t part)
+  /// Marks the small pieces of other elements, connected with each other, next to marked ones.
+  void dropFragments()
   {
-    return this->Parts.anyEdge(part,
-      [&](std::size_t leaf, std::size_t other)
-      {
-        return criterion.drops(
-          this->Tree, this->Bounds, this->Tree.sampleOf(leaf), this->Tree.sampleOf(other));
+    std::vector<std::size_t> fragments;
+    // Everything next to a gap was reached.
+    std::vector<std::size_t> candidates = itemsThat(this->Exec, this->IsReached.size(),
+      [this](std::size_t element) {
+        return this->IsReached[element] && !this->IsInGap[element] && this->isBesideGap(element);
       });
+    while (!candidates.empty())
+    {
+      throwIfAborted(this->Exec);
+      std::vector<std::size_t> open; // whose pieces may be larger
+      std::vector<std::size_t> ofOpen;
+      for (const std::size_t element : candidates)
+      {
+        const std::vector<std::size_t> piece = this->pieceAround(element);
+        if (piece.size() >= smallestPiece)
+        {
+          continue;
+        }
+        const bool isWhole = std::all_of(piece.begin(), piece.end(),
+          [this](std::size_t other) { return this->Elements.isConnected(other); });
+        if (!isWhole)
+        {
+          open.push_back(element);
+        }
+        std::vector<std::size_t>& list = isWhole ? fragments : ofOpen;
+        list.insert(list.end(), piece.begin(), piece.end());
+      }
+      this->connect(ofOpen);
+      candidates.swap(open);
+    }
+    forEachInOrder(
+      this->Exec, fragments.size(), [&](std::size_t i) { this->IsInGap[fragments[i]] = 1; });
   }
 
-  /// Marks parts as in a gap. @returns their neighbors that were not reached before
-  std::vector<std::size_t> next(const std::vector<std::size_t>& parts)
+  /// By element, whether it is marked. Moved out.
+  std::vector<char> takeInGap() { return std::move(this->IsInGap); }
+
+private:
+  /// Smaller pieces next to a gap are dropped with it.
+  static constexpr std::size_t smallestPiece = 8;
+
+  void resize()
   {
+    this->IsReached.resize(this->Elements.size(), 0);
+    this->IsInGap.resize(this->Elements.size(), 0);
+  }
+
+  void connect(const std::vector<std::size_t>& elements)
+  {
+    this->Elements.connect(this->Exec, elements);
+    this->resize();
+  }
+
+  /// Marks elements as in a gap. @returns their neighbors that were not reached before
+  std::vector<std::size_t> next(const std::vector<std::size_t>& elements)
+  {
+    this->connect(elements);
     std::vector<std::size_t> found;
-    forEachInOrder(this->Exec, parts.size(),
+    forEachInOrder(this->Exec, elements.size(),
       [&](std::size_t i)
       {
-        const std::size_t part = parts[i];
-        if (this->IsInGap[part])
+        const std::size_t element = elements[i];
+        if (this->IsInGap[element])
         {
           return;
         }
-        this->IsInGap[part] = 1;
-        this->IsReached[part] = 1;
-        this->Parts.forEachNeighbor(this->Exec, part,
+        this->IsInGap[element] = 1;
+        this->IsReached[element] = 1;
+        this->Elements.forEachNeighbor(element,
           [&](std::size_t neighbor)
           {
             if (!this->IsReached[neighbor])
@@ -125,16 +129,41 @@ private:
           });
       });
     // The order of neighbors differs among ranks.
-    return sortedUnique(this->Exec, found, this->Parts.size());
+    return sortedUnique(this->Exec, found, this->Elements.size());
+  }
+
+  bool isBesideGap(std::size_t element) const
+  {
+    bool isBeside = false;
+    this->Elements.forEachNeighbor(
+      element, [&](std::size_t neighbor) { isBeside = isBeside || this->IsInGap[neighbor] != 0; });
+    return isBeside;
+  }
+
+  /// The unmarked elements connected with one; not all if there are at least `smallestPiece`.
+  std::vector<std::size_t> pieceAround(std::size_t element) const
+  {
+    std::vector<std::size_t> piece{ element };
+    for (std::size_t i = 0; i < piece.size() && piece.size() < smallestPiece; ++i)
+    {
+      this->Elements.forEachNeighbor(piece[i],
+        [&](std::size_t neighbor)
+        {
+          if (!this->IsInGap[neighbor] &&
+              std::find(piece.begin(), piece.end(), neighbor) == piece.end())
+          {
+            piece.push_back(neighbor);
+          }
+        });
+    }
+    return piece;
   }
 
   const Execution& Exec;
-  const SampleTree<TSample>& Tree;
-  SampleBounds<TSample> Bounds;
   TRanks& Ranks;
-  TParts& Parts;
-  std::vector<char> IsReached;
-  std::vector<char> IsInGap;
+  TElements& Elements;
+  std::vector<char> IsReached; // by element, whether it is a seed or connected with one in a gap
+  std::vector<char> IsInGap;   // by element
 };
 
 } // namespace isopoint

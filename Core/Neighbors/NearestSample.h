@@ -5,12 +5,46 @@
 #include "Core/Base/Vector.h"
 #include "Core/Tree/SampleTree.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
 namespace isopoint
 {
+
+/// A ball in which samples are searched; see searchRegion().
+template <class TSample>
+class BallSearch
+{
+public:
+  BallSearch(const SampleTree<TSample>& tree, const Vector& center, double radius)
+    : Tree(tree)
+    , Center(center)
+    , Radius(radius)
+  {
+  }
+
+  bool mayHold(const Node<TSample>& /*node*/, const Region& region) const
+  {
+    const Vector gap = gapTo(region, this->Center);
+    constexpr double slack = 0.999; // for rounding
+    return slack * slack * dot(gap, gap) <= this->Radius * this->Radius;
+  }
+
+  bool isUpperFirst(const Node<TSample>& node) const
+  {
+    return this->Center[node.axis] > node.plane;
+  }
+
+  Region needed(const Region& region) const
+  {
+    return partWithin(region, this->Center, this->Radius);
+  }
+
+protected:
+  const SampleTree<TSample>& Tree;
+  const Vector Center;
+  double Radius;
+};
 
 /// The condition of a NearestSampleSearch that every sample meets.
 struct AnySample
@@ -24,17 +58,15 @@ struct AnySample
 
 /// Finds the nearest sample to a place that meets a condition; the lowest id among equals.
 template <class TSample, class TCondition = AnySample>
-class NearestSampleSearch
+class NearestSampleSearch : public BallSearch<TSample>
 {
 public:
   /// @param reach search radius, finite
   /// @param condition has the functions of AnySample
   NearestSampleSearch(const SampleTree<TSample>& tree, const Vector& place, double reach,
     const TCondition& condition = {})
-    : Tree(tree)
-    , Place(place)
+    : BallSearch<TSample>(tree, place, reach)
     , Condition(condition)
-    , Distance(reach)
   {
   }
 
@@ -51,18 +83,9 @@ public:
     return this->Found;
   }
 
-  // For searchRegion().
-
-  bool mayHold(const Node<TSample>& /*node*/, const Region& region) const
+  bool mayHold(const Node<TSample>& node, const Region& region) const
   {
-    return this->isNear(region) && this->Condition.mayHoldIn(region);
-  }
-
-  bool isUpperFirst(const Node<TSample>& node) const { return this->Place[node.axis] > node.plane; }
-
-  Region needed(const Region& region) const
-  {
-    return partWithin(region, this->Place, this->Distance);
+    return BallSearch<TSample>::mayHold(node, region) && this->Condition.mayHoldIn(region);
   }
 
   bool add(std::size_t nodeIndex)
@@ -76,44 +99,27 @@ public:
   }
 
 private:
-  /// Whether a region may hold a sample as near as the nearest found.
-  bool isNear(const Region& region) const
-  {
-    const Vector gap = gapTo(region, this->Place);
-    constexpr double slack = 0.999; // for rounding
-    return !this->isFarther(gap) && slack * lengthOf(gap) <= this->Distance;
-  }
-
-  /// Compares components only. That is far faster than the length, which is never less than a
-  /// component, rounding included.
-  bool isFarther(const Vector& offset) const
-  {
-    return std::abs(offset[0]) > this->Distance || std::abs(offset[1]) > this->Distance ||
-           std::abs(offset[2]) > this->Distance;
-  }
-
   void consider(const TSample& sample)
   {
-    const Vector offset = positionOf(sample) - this->Place;
-    if (this->isFarther(offset))
+    const Vector offset = positionOf(sample) - this->Center;
+    // Comparing components is far faster than the length, which is never less than one.
+    if (std::abs(offset[0]) > this->Radius || std::abs(offset[1]) > this->Radius ||
+        std::abs(offset[2]) > this->Radius)
     {
       return;
     }
     const double distance = lengthOf(offset);
     const bool isNearer =
-      distance < this->Distance ||
-      (distance == this->Distance && (!this->Found || sample.id < this->Found->id));
+      distance < this->Radius ||
+      (distance == this->Radius && (!this->Found || sample.id < this->Found->id));
     if (isNearer && this->Condition.holdsAt(offset, distance))
     {
-      this->Distance = distance;
+      this->Radius = distance;
       this->Found = &sample;
     }
   }
 
-  const SampleTree<TSample>& Tree;
-  const Vector Place;
   const TCondition Condition;
-  double Distance;
   const TSample* Found = nullptr;
 };
 

@@ -1,53 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "Core/Base/Region.h"
 #include "Core/Base/Vector.h"
+#include "Core/Neighbors/NearestSample.h"
 #include "Core/Tree/SampleTree.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 
 namespace isopoint
 {
-
-/// A ball in which samples are searched; see searchRegion().
-template <class TSample>
-class BallSearch
-{
-public:
-  BallSearch(const SampleTree<TSample>& tree, const Vector& center, double radius)
-    : Tree(tree)
-    , Center(center)
-    , Radius(radius)
-  {
-  }
-
-  bool mayHold(const Node<TSample>& /*node*/, const Region& region) const
-  {
-    const Vector gap = gapTo(region, this->Center);
-    constexpr double slack = 0.999; // for rounding
-    return slack * slack * dot(gap, gap) <= this->Radius * this->Radius;
-  }
-
-  bool isUpperFirst(const Node<TSample>& node) const
-  {
-    return this->Center[node.axis] > node.plane;
-  }
-
-  Region needed(const Region& region) const
-  {
-    return partWithin(region, this->Center, this->Radius);
-  }
-
-protected:
-  const SampleTree<TSample>& Tree;
-  const Vector Center;
-  double Radius;
-};
 
 /// Whether a sample in a ball, or on its boundary, is of a kind.
 template <class TSample, class Kind>

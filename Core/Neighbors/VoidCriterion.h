@@ -4,7 +4,6 @@
 #include "Core/Neighbors/GapCriterion.h"
 #include "Core/Neighbors/SampleSpacing.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace isopoint
@@ -27,24 +26,16 @@ public:
   }
 
   /// As GapCriterion::drops().
-  template <class TSample>
-  bool drops(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& own,
-    const TSample& other) const
-  {
-    const auto spacingAt = [&tree](const TSample& end)
-    { return SpacingSearch<TSample>(tree, end).find(); };
-    const double spacing = spacingAt(own);
-    return this->mayDrop(own, other, spacing) &&
-           this->drops(tree, bounds, own, other, std::max(spacing, spacingAt(other)));
-  }
-
-  /// The same if the greater of both spacings is known.
+  /// @param spacing the greater of those at both ends
   template <class TSample>
   bool drops(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& own,
     const TSample& other, double spacing) const
   {
+    constexpr double slack = 1.001; // for rounding
+    const bool mayHoldNoEnd =
+      2.0 * this->Factor * spacing < slack * lengthOf(positionOf(other) - positionOf(own));
     // The other criterion takes long for edges of slivers, which are long.
-    return this->mayDrop(own, other, spacing) &&
+    return mayHoldNoEnd &&
            this->isBare(tree, positionOf(own), positionOf(other), this->Factor * spacing) &&
            (this->Criterion.drops(tree, bounds, own, other) ||
              this->joinsRims(tree, bounds, own, other, spacing));
@@ -74,15 +65,6 @@ private:
     const double least = around.nearest() * lengthOf(edge);
     const auto isAlong = [&](const Vector& offset) { return std::abs(dot(offset, edge)) >= least; };
     return AnyInBallSearch(tree, positionOf(end), spacing, isAlong).hasAny();
-  }
-
-  /// Whether the edge is so long that a ball on it may contain neither end.
-  /// @param spacing at one end, or the greater one
-  template <class TSample>
-  bool mayDrop(const TSample& own, const TSample& other, double spacing) const
-  {
-    constexpr double slack = 1.001; // for rounding
-    return 2.0 * this->Factor * spacing < slack * lengthOf(positionOf(other) - positionOf(own));
   }
 
   /// Whether one of the balls is empty. The same from either end.

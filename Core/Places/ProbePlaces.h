@@ -15,7 +15,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
-#include <numeric>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -34,8 +33,8 @@ public:
   {
   }
 
-  /// Clears the list. @returns whether there were any
-  bool provide(std::vector<MissingNode>& missing)
+  /// As NodeExchange::fetchNodes(), which takes its place on ranks.
+  bool fetchNodes(std::vector<MissingNode>& missing, int /*depth*/)
   {
     std::vector<std::size_t> nodes;
     nodes.reserve(missing.size());
@@ -147,11 +146,9 @@ template <class TSample, class TNodes>
 std::vector<std::size_t> placesInTreeOrder(const Execution& execution,
   const SampleTree<TSample>& tree, TNodes& nodes, const std::vector<Vector>& places)
 {
-  std::vector<std::size_t> order(places.size());
   if (tree.isEmpty())
   {
-    std::iota(order.begin(), order.end(), std::size_t{ 0 });
-    return order;
+    return numbersBelow(places.size());
   }
   using NodeAtPlace = std::pair<std::size_t, std::size_t>;
   std::vector<MissingNode> missing;
@@ -175,22 +172,16 @@ std::vector<std::size_t> placesInTreeOrder(const Execution& execution,
     {
       missing.push_back({ node, { places[place], places[place] } });
     }
-  } while (nodes.provide(missing));
-  std::vector<std::pair<std::size_t, std::size_t>> begins(places.size());
-  forEachIndex(execution, places.size(),
-    [&](std::size_t i) {
-      begins[i] = { tree.nodes[nodeAround(tree, places[i])].begin, i };
-    });
-  begins = sortedUnique(execution, begins, tree.samples.size(),
-    [](const std::pair<std::size_t, std::size_t>& place) { return place.first; });
-  std::transform(begins.begin(), begins.end(), order.begin(),
-    [](const std::pair<std::size_t, std::size_t>& place) { return place.second; });
-  return order;
+  } while (nodes.fetchNodes(missing, maximumDepth + 1));
+  return orderByKeys(
+    execution, places.size(), tree.samples.size(),
+    [&](std::size_t i) -> std::size_t { return tree.nodes[nodeAround(tree, places[i])].begin; },
+    [](std::size_t begin) { return begin; });
 }
 
 /// Calls use(worker, place, search) for each place, with a SurroundingsSearch that has found the
 /// samples around it.
-/// @param nodes OwnNodes, or for ranks SharedNodes
+/// @param nodes OwnNodes, or for ranks NodeExchange
 template <class TSample, class TNodes, class MakeWorker, class Use>
 void forSurroundings(const Execution& execution, const SampleTree<TSample>& tree, TNodes& nodes,
   const ProbeOptions& options, const std::vector<Vector>& places, const MakeWorker& makeWorker,
@@ -232,7 +223,7 @@ void forSurroundings(const Execution& execution, const SampleTree<TSample>& tree
       },
       done);
     order.swap(again);
-  } while (nodes.provide(missing));
+  } while (nodes.fetchNodes(missing, maximumDepth + 1));
 }
 
 } // namespace isopoint

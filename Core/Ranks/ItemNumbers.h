@@ -2,38 +2,13 @@
 #pragma once
 
 #include "Core/Base/ProcessGroup.h"
-#include "Core/Ranks/NodeExchange.h"
-#include "Core/Tree/BinaryIndex.h"
-#include "Core/Tree/SampleTree.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <vector>
 
 namespace isopoint
 {
-
-/// Fetches the nodes that searches miss from other ranks. See OwnNodes.
-template <class TSample>
-class SharedNodes
-{
-public:
-  SharedNodes(
-    ProcessGroup& processes, SampleTree<TSample>& tree, const std::vector<std::uint64_t>& begins)
-    : Exchange(processes, tree, begins)
-  {
-  }
-
-  /// Collective. Clears the list. @returns whether any rank missed any
-  bool provide(std::vector<MissingNode>& missing)
-  {
-    return this->Exchange.fetchNodes(missing, maximumDepth + 1);
-  }
-
-private:
-  NodeExchange<TSample> Exchange;
-};
 
 /// Numbers of items of all ranks, which only the rank of an item has. All functions are collective.
 class ItemNumbers

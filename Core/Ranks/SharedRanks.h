@@ -18,7 +18,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
-#include <numeric>
 #include <stdexcept>
 #include <vector>
 
@@ -60,8 +59,7 @@ public:
     const Execution& execution, const ItemBatches& batches, const MakeWorker& makeWorker,
     const Work& work, const BatchDone& batchDone = [](double) {})
   {
-    std::vector<std::size_t> items(batches.count);
-    std::iota(items.begin(), items.end(), std::size_t{ 0 });
+    std::vector<std::size_t> items = numbersBelow(batches.count);
     std::vector<MissingNode> missing;
     do
     {
@@ -101,17 +99,28 @@ public:
         });
     }
     const std::vector<SentEdge> open = united(this->Processes.exchange(outgoing));
-    const std::size_t ownCount = edges.size();
-    edges.resize(ownCount + open.size());
+    std::vector<SentEnd> ends;
+    for (const SentEdge& edge : open)
+    {
+      ends.insert(ends.end(), { edge.ends[0], edge.ends[1] });
+    }
+    const std::vector<std::size_t> leaves = this->leavesAt(ends);
+    for (std::size_t i = 0; i < open.size(); ++i)
+    {
+      edges.push_back({ { open[i].first, open[i].second }, open[i].crossing,
+        static_cast<typename TSample::Id>(leaves[2 * i]),
+        static_cast<typename TSample::Id>(leaves[2 * i + 1]) });
+    }
+  }
+
+  /// The leaves at ends of edges in this rank's tree. Collective.
+  std::vector<std::size_t> leavesAt(const std::vector<SentEnd>& ends)
+  {
+    std::vector<std::size_t> leaves(ends.size());
     this->forEach(
-      Execution(), { open.size(), 1024, 256 }, []() { return 0; },
-      [&](int, std::size_t i)
-      {
-        const SentEdge& edge = open[i];
-        edges[ownCount + i] = { { edge.first, edge.second }, edge.crossing,
-          static_cast<typename TSample::Id>(leafAt(this->Tree, edge.ends[0])),
-          static_cast<typename TSample::Id>(leafAt(this->Tree, edge.ends[1])) };
-      });
+      Execution(), { ends.size(), 1024, 256 }, []() { return 0; },
+      [&](int, std::size_t i) { leaves[i] = leafAt(this->Tree, ends[i]); });
+    return leaves;
   }
 
   void uniteEdges(const Edges& edges, std::vector<std::size_t>& found)
@@ -146,27 +155,22 @@ public:
     }
     std::vector<std::vector<SentEnd>> all = this->Processes.gather(own);
     all[static_cast<std::size_t>(this->Processes.rank())].clear();
-    const std::vector<SentEnd> others = united(all);
-    const std::size_t ownCount = leaves.size();
-    leaves.resize(ownCount + others.size());
-    this->forEach(
-      Execution(), { others.size(), 1024, 256 }, []() { return 0; },
-      [&](int, std::size_t i) { leaves[ownCount + i] = leafAt(this->Tree, others[i]); });
+    const std::vector<std::size_t> others = this->leavesAt(united(all));
+    leaves.insert(leaves.end(), others.begin(), others.end());
   }
 
-  void order(std::vector<CrossingTetrahedron<typename TSample::Id>>& tetrahedra) const
+  void order(std::vector<CrossingTetrahedron>& tetrahedra) const
   {
-    using Tetrahedron = CrossingTetrahedron<typename TSample::Id>;
-    const auto placesOfCorners = [this](const Tetrahedron& tetrahedron)
+    const auto placesOfCorners = [this](const CrossingTetrahedron& tetrahedron)
     {
       std::array<std::uint64_t, 4> places{};
       std::transform(tetrahedron.corners.begin(), tetrahedron.corners.end(), places.begin(),
-        [this](typename TSample::Id leaf) { return this->Tree.nodes[leaf].begin; });
+        [this](std::size_t leaf) { return this->Tree.nodes[leaf].begin; });
       std::sort(places.begin(), places.end());
       return places;
     };
     std::sort(tetrahedra.begin(), tetrahedra.end(),
-      [&](const Tetrahedron& a, const Tetrahedron& b)
+      [&](const CrossingTetrahedron& a, const CrossingTetrahedron& b)
       { return placesOfCorners(a) < placesOfCorners(b); });
   }
 
@@ -181,12 +185,15 @@ public:
     const FitRequest& request, const Edges& edges, const std::vector<Vector>& starts)
   {
     std::vector<LocalFit> fits(edges.size());
-    std::vector<TreePlace> places = placesOf(execution, this->Tree, edges);
-    places.erase(std::remove_if(places.begin(), places.end(),
-                   [this](const TreePlace& place) { return !this->Tree.isOwn(place.first); }),
-      places.end());
-    fitAt(execution, context, *this, request, edges, starts, places, fits);
-    this->gatherFits(places, fits);
+    const std::vector<std::size_t> own =
+      chosenThat(execution, orderInTree(execution, this->Tree, edges),
+        [&](std::size_t i)
+        {
+          const EdgeLeaves leaves{ edges[i].firstLeaf, edges[i].secondLeaf };
+          return this->Tree.isOwn(firstPlaceOf(this->Tree, leaves));
+        });
+    fitAt(execution, context, *this, request, edges, starts, own, fits);
+    this->gatherFits(own, fits);
     return fits;
   }
 
@@ -218,15 +225,15 @@ private:
     }
   }
 
-  void gatherFits(const std::vector<TreePlace>& places, std::vector<LocalFit>& fits)
+  void gatherFits(const std::vector<std::size_t>& own, std::vector<LocalFit>& fits)
   {
-    ByteBuffer own;
-    for (const TreePlace& place : places)
+    ByteBuffer sent;
+    for (const std::size_t edge : own)
     {
-      append(own, static_cast<std::uint64_t>(place.edge));
-      appendFit(own, fits[place.edge]);
+      append(sent, static_cast<std::uint64_t>(edge));
+      appendFit(sent, fits[edge]);
     }
-    for (const ByteBuffer& buffer : this->Processes.gather(own))
+    for (const ByteBuffer& buffer : this->Processes.gather(sent))
     {
       ByteReader in(buffer);
       while (!in.isAtEnd())

@@ -19,7 +19,6 @@
 #include <cstdint>
 #include <iterator>
 #include <mutex>
-#include <numeric>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -87,7 +86,11 @@ public:
   const std::vector<bool>* inner() const { return &this->IsInner; }
 
   std::vector<std::size_t> owned() const { return markedOf(this->Exec, this->IsOwned); }
-  std::vector<std::size_t> ghosts() const { return markedOf(this->Exec, this->IsGhost); }
+  std::vector<std::size_t> ghosts() const
+  {
+    return itemsThat(
+      this->Exec, this->All.size(), [this](std::size_t i) { return !this->IsOwned[i]; });
+  }
 
   Isosurface takeOwned() const { return chosenIsopoints(this->Exec, this->All, this->owned()); }
 
@@ -235,13 +238,16 @@ private:
     }
     const std::vector<SentIsopoint*> added =
       this->receive(this->Ranks.processes().exchange(answers));
-    this->Ranks.forEach(
-      Execution(), { added.size(), 1024, 256 }, []() { return 0; },
-      [&](int, std::size_t i)
-      {
-        const auto& ends = added[i]->ends;
-        added[i]->leaves = { leafAt(this->Tree, ends[0]), leafAt(this->Tree, ends[1]) };
-      });
+    std::vector<SentEnd> ends;
+    for (const SentIsopoint* const isopoint : added)
+    {
+      ends.insert(ends.end(), isopoint->ends.begin(), isopoint->ends.end());
+    }
+    const std::vector<std::size_t> leavesAtEnds = this->Ranks.leavesAt(ends);
+    for (std::size_t i = 0; i < added.size(); ++i)
+    {
+      added[i]->leaves = { leavesAtEnds[2 * i], leavesAtEnds[2 * i + 1] };
+    }
   }
 
   /// Writes the isopoints that end in some of this rank's leaves, each once.
@@ -303,8 +309,7 @@ private:
         }
       }
     }
-    std::vector<std::size_t> order(both.size());
-    std::iota(order.begin(), order.end(), std::size_t{ 0 });
+    std::vector<std::size_t> order = numbersBelow(both.size());
     std::stable_sort(order.begin(), order.end(),
       [&both](std::size_t a, std::size_t b) { return both.edges[a] < both.edges[b]; });
     order.erase(std::unique(order.begin(), order.end(),
@@ -330,27 +335,20 @@ private:
   void chooseOwn(bool isShared)
   {
     this->IsOwned.assign(this->All.size(), false);
-    this->IsGhost.assign(this->All.size(), true);
     std::vector<bool> isOwn(this->All.size(), false);
     for (const std::size_t i : this->OwnIndices)
     {
       isOwn[i] = true;
       this->IsOwned[i] = this->Tree.isOwn(firstPlaceOf(this->Tree, this->All.leaves[i]));
-      this->IsGhost[i] = !this->IsOwned[i];
       // Both ranks of an edge between two send such a ghost.
       if (this->IsOwned[i] || isShared)
       {
         this->Shaped.push_back(i);
       }
     }
-    for (const std::size_t i :
-      inOrderOfLeaves(this->Exec, this->All.leaves, this->Tree.nodes.size()))
-    {
-      if (isOwn[i])
-      {
-        this->OwnInTreeOrder.push_back(i);
-      }
-    }
+    this->OwnInTreeOrder =
+      chosenThat(this->Exec, inOrderOfLeaves(this->Exec, this->All.leaves, this->Tree.nodes.size()),
+        [&](std::size_t i) { return isOwn[i]; });
   }
 
   /// @returns the index of the edge's isopoint in surface(), or size() if there is none
@@ -384,7 +382,6 @@ private:
   std::vector<std::size_t> Shaped;
   std::vector<bool> IsInner;
   std::vector<bool> IsOwned; // whether each belongs to this rank
-  std::vector<bool> IsGhost;
 };
 
 } // namespace isopoint

@@ -129,16 +129,12 @@ private:
   static std::vector<Value> valuesOf(
     const Execution& execution, const std::vector<Id>& ids, const Reader& read)
   {
-    constexpr std::size_t grain = 1 << 14;
     std::vector<Value> values(ids.size());
-    forBatches(execution, ids.size(), 16 * grain, grain,
-      [&](std::size_t begin, std::size_t end)
+    forEachIndex(execution, ids.size(),
+      [&](std::size_t i)
       {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          typename TSample::Coordinate position[3];
-          read(static_cast<std::size_t>(ids[i]), position, values[i]);
-        }
+        typename TSample::Coordinate position[3];
+        read(static_cast<std::size_t>(ids[i]), position, values[i]);
       });
     return values;
   }

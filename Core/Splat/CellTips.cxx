@@ -60,25 +60,20 @@ void cutOff(const Tip& tip, LoweredCell& cell)
 void cutOffTips(const Execution& execution, const SurfacePoints& points,
   const std::vector<Vector>& planes, RawArray<LoweredCell>& cells)
 {
-  constexpr std::size_t grain = 4096;
   const LoweredCells all(points, planes, cells);
-  const std::vector<Tip> tips = collected<Tip>(execution, { cells.size(), 16 * grain, grain },
-    [&](std::size_t begin, std::size_t end, std::vector<Tip>& found)
+  const std::vector<Tip> tips = collectedFromEach<Tip>(execution, cells.size(),
+    [&](std::size_t point, std::vector<Tip>& found)
     {
-      for (std::size_t point = begin; point < end; ++point)
+      // The last one first: cutting it off leaves the indices of the others.
+      for (std::size_t i = cells[point].count; i-- > 0;)
       {
-        // The last one first: cutting it off leaves the indices of the others.
-        for (std::size_t i = cells[point].count; i-- > 0;)
+        const CornerOf corner{ point, i };
+        if (all.isBetweenPoints(corner))
         {
-          const CornerOf corner{ point, i };
-          if (all.isBetweenPoints(corner))
+          const Tip tip{ corner, { endBefore(all, corner, false), endBefore(all, corner, true) } };
+          if (tip.ends[0] || tip.ends[1])
           {
-            const Tip tip{ corner,
-              { endBefore(all, corner, false), endBefore(all, corner, true) } };
-            if (tip.ends[0] || tip.ends[1])
-            {
-              found.push_back(tip);
-            }
+            found.push_back(tip);
           }
         }
       }

@@ -124,24 +124,19 @@ std::vector<MissedPoint> missedPoints(const Execution& execution, const SurfaceP
       [&](const VoronoiCell::Corner& corner)
       { return a * corner.x + b * corner.y > 0.5 * dot(offset, offset); });
   };
-  constexpr std::size_t grain = 4096;
-  const std::vector<MissedPoint> missed =
-    collected<MissedPoint>(execution, { cells.size(), 4 * grain, grain },
-      [&](std::size_t begin, std::size_t end, std::vector<MissedPoint>& found)
+  const std::vector<MissedPoint> missed = collectedFromEach<MissedPoint>(execution, cells.size(),
+    [&](std::size_t other, std::vector<MissedPoint>& found)
+    {
+      for (const VoronoiCell::Corner& corner : cells[other])
       {
-        for (std::size_t other = begin; other < end; ++other)
+        const std::size_t point = corner.beyond;
+        if (VoronoiCell::isPoint(point) && !hasSideTowards(cells[point], other) &&
+            reachesOver(point, other))
         {
-          for (const VoronoiCell::Corner& corner : cells[other])
-          {
-            const std::size_t point = corner.beyond;
-            if (VoronoiCell::isPoint(point) && !hasSideTowards(cells[point], other) &&
-                reachesOver(point, other))
-            {
-              found.emplace_back(point, other);
-            }
-          }
+          found.emplace_back(point, other);
         }
-      });
+      }
+    });
   return sortedUnique(execution, missed, cells.size(),
     [](const MissedPoint& each) { return static_cast<std::uint64_t>(each.first); });
 }

@@ -293,35 +293,27 @@ void shapeSplats(const Execution& execution, const SurfacePoints& points,
   RawArray<VoronoiCell> cells, const std::vector<Vector>& planes,
   const std::vector<std::size_t>& shaped, std::vector<Splat>& splats)
 {
-  constexpr std::size_t batch = 2048;
-  constexpr std::size_t grain = 128;
   RawArray<LoweredCell> lowered;
   lowered.resize(cells.size());
-  forBatches(
-    execution, cells.size(), batch, grain,
-    [&](std::size_t begin, std::size_t end)
+  forEachIndex(
+    execution, cells.size(),
+    [&](std::size_t i)
     {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        lowered[i] =
-          loweredCell(withSharedSides(cells, i), points.positions[i], planes[i], splats[i].normal);
-      }
+      lowered[i] =
+        loweredCell(withSharedSides(cells, i), points.positions[i], planes[i], splats[i].normal);
     },
-    [&](double share) { execution.progress(0.5 * share); });
+    partOf(execution, 0.0, 0.5).progress);
   cells = {};
   cutOffTips(execution, points, planes, lowered);
   const CornerJoiner joiner(points, planes, lowered);
-  forBatches(
-    execution, shaped.size(), batch, grain,
-    [&](std::size_t begin, std::size_t end)
+  forEachIndex(
+    execution, shaped.size(),
+    [&](std::size_t i)
     {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const std::size_t point = shaped[i];
-        setShape(joiner, point, points.positions[point], lowered[point], splats[point]);
-      }
+      const std::size_t point = shaped[i];
+      setShape(joiner, point, points.positions[point], lowered[point], splats[point]);
     },
-    [&](double share) { execution.progress(0.5 + 0.5 * share); });
+    partOf(execution, 0.5, 1.0).progress);
 }
 
 } // namespace isopoint

@@ -110,19 +110,15 @@ std::vector<Entry> verticesByCell(
         grids.insert(gridOf(vertices[i]));
       }
     });
-  const std::vector<Entry> entries = collected<Entry>(execution, { vertices.size(), 1 << 14, 4096 },
-    [&](std::size_t begin, std::size_t end, std::vector<Entry>& found)
+  const std::vector<Entry> entries = collectedFromEach<Entry>(execution, vertices.size(),
+    [&](std::size_t i, std::vector<Entry>& found)
     {
-      for (std::size_t i = begin; i < end; ++i)
+      const auto own = mayMeet(vertices[i]) ? grids.find(gridOf(vertices[i])) : grids.end();
+      for (auto grid = own; grid != grids.end(); ++grid)
       {
-        const auto own = mayMeet(vertices[i]) ? grids.find(gridOf(vertices[i])) : grids.end();
-        for (auto grid = own; grid != grids.end(); ++grid)
-        {
-          const std::uint64_t isFiner = grid == own ? 0 : 1;
-          forCells(vertices[i], *grid,
-            [&](const Cell& cell)
-            { found.emplace_back(hashOfCell(*grid, cell) << 1 | isFiner, i); });
-        }
+        const std::uint64_t isFiner = grid == own ? 0 : 1;
+        forCells(vertices[i], *grid,
+          [&](const Cell& cell) { found.emplace_back(hashOfCell(*grid, cell) << 1 | isFiner, i); });
       }
     });
   return sortedUnique(execution, entries, std::uint64_t{ 1 } << 63, cellNumber);

@@ -26,22 +26,6 @@ std::array<std::size_t, 3> facingTriangle(const SplatFan& fan, std::size_t trian
   return corners;
 }
 
-/// Processes points in batches, with progress and aborts.
-template <class Work>
-void forPoints(const Execution& execution, std::size_t points, const Work& work)
-{
-  forBatches(
-    execution, points, 1 << 15, 1024,
-    [&work](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t point = begin; point < end; ++point)
-      {
-        work(point);
-      }
-    },
-    execution.progress);
-}
-
 } // namespace
 
 SplatMesh buildSplatMesh(const Execution& execution, std::size_t points,
@@ -50,20 +34,23 @@ SplatMesh buildSplatMesh(const Execution& execution, std::size_t points,
   constexpr double third = 1.0 / 3.0;
   std::vector<std::size_t> firstVertices(points + 1, 0);
   std::vector<std::size_t> firstTriangles(points + 1, 0);
-  forPoints(partOf(execution, 0.0, third), points,
+  forEachIndex(
+    execution, points,
     [&](std::size_t point)
     {
       const SplatFan fan = fanAt(point);
       firstVertices[point + 1] = fan.vertexCount;
       firstTriangles[point + 1] = fan.triangleCount;
-    });
+    },
+    partOf(execution, 0.0, third).progress);
   std::partial_sum(firstVertices.begin(), firstVertices.end(), firstVertices.begin());
   std::partial_sum(firstTriangles.begin(), firstTriangles.end(), firstTriangles.begin());
 
   std::vector<SplatVertex> vertices(firstVertices.back());
   std::vector<std::size_t> pointOfVertex(vertices.size());
   std::vector<std::array<std::size_t, 3>> triangles(firstTriangles.back());
-  forPoints(partOf(execution, third, 2.0 * third), points,
+  forEachIndex(
+    execution, points,
     [&](std::size_t point)
     {
       const SplatFan fan = fanAt(point);
@@ -82,7 +69,8 @@ SplatMesh buildSplatMesh(const Execution& execution, std::size_t points,
         const auto [a, b, c] = facingTriangle(fan, i);
         triangles[firstTriangles[point] + i] = { first + a, first + b, first + c };
       }
-    });
+    },
+    partOf(execution, third, 2.0 * third).progress);
 
   std::vector<std::size_t> meetsAt = meetingVertices(partOf(execution, 2.0 * third, 1.0), vertices);
   ItemLists meeting(execution, vertices.size(), vertices.size(),

@@ -10,7 +10,6 @@
 #include "Core/Tree/NodeMarks.h"
 #include "Core/Tree/TreeRefinement.h"
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
@@ -41,8 +40,6 @@ template <class TSample, class TRanks>
 class CrossingTetrahedraFinder
 {
 public:
-  using Id = typename TSample::Id;
-
   /// @param tree refined around the isovalue (see NarrowBand); is refined further
   /// @param values of the tree's leaves
   /// @param kept the band of an earlier search in this tree, or null; replaced by the new band, or
@@ -61,13 +58,13 @@ public:
   /// @param nodes that contain all of this rank's leaves that touch a leaf on the other side
   /// @returns tetrahedra of leaves of this rank's tree
   /// @throws std::bad_alloc, Aborted, FailedElsewhere, or TreeTooLarge (see NarrowBand)
-  std::vector<CrossingTetrahedron<Id>> find(const std::vector<BinaryIndex>& nodes)
+  std::vector<CrossingTetrahedron> find(const std::vector<BinaryIndex>& nodes)
   {
     if (!this->certifyCrossing(nodes))
     {
       return {};
     }
-    std::vector<CrossingTetrahedron<Id>> found = this->crossing();
+    std::vector<CrossingTetrahedron> found = this->crossing();
     this->finish();
     return found;
   }
@@ -191,19 +188,11 @@ private:
     return unit;
   }
 
-  std::vector<CrossingTetrahedron<Id>> crossing()
+  std::vector<CrossingTetrahedron> crossing()
   {
-    std::vector<CrossingTetrahedron<Id>> result(
-      this->triangulation().listCrossingTetrahedra(this->Exec));
-    forEachIndex(this->Exec, result.size(),
-      [&](std::size_t i)
-      {
-        const auto [corners, belowCount, isAtHull] = this->triangulation().crossingTetrahedronAt(i);
-        result[i].belowCount = belowCount;
-        result[i].isAtHull = isAtHull;
-        std::transform(corners.begin(), corners.end(), result[i].corners.begin(),
-          [](std::uint64_t leaf) { return static_cast<Id>(leaf); });
-      });
+    std::vector<CrossingTetrahedron> result = tabulated<CrossingTetrahedron>(this->Exec,
+      this->triangulation().listCrossingTetrahedra(this->Exec),
+      [this](std::size_t i) { return this->triangulation().crossingTetrahedronAt(i); });
     this->triangulation().dropLists();
     return result;
   }
@@ -364,8 +353,7 @@ private:
           unsplit.push_back(ends.back());
         }
       }
-      std::sort(unsplit.begin(), unsplit.end());
-      unsplit.erase(std::unique(unsplit.begin(), unsplit.end()), unsplit.end());
+      keepUnique(unsplit);
     } while (!unsplit.empty());
     return ends;
   }

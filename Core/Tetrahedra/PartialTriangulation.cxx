@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <exception>
 #include <functional>
@@ -29,10 +28,12 @@ using band::Vertex;
 using band::VertexInfo;
 
 /// An even permutation of the corners with those below the isovalue first.
-CrossingTetrahedron<std::uint64_t> bySides(std::array<VertexInfo, 4> corners)
+CrossingTetrahedron bySides(Cell cell)
 {
+  std::array<VertexInfo, 4> corners{ cell->vertex(0)->info(), cell->vertex(1)->info(),
+    cell->vertex(2)->info(), cell->vertex(3)->info() };
   const auto isBelow = [](const VertexInfo& corner) { return corner.isBelow(); };
-  CrossingTetrahedron<std::uint64_t> result{};
+  CrossingTetrahedron result{};
   result.belowCount =
     static_cast<std::uint8_t>(std::count_if(corners.begin(), corners.end(), isBelow));
   bool isOdd = false;
@@ -51,7 +52,7 @@ CrossingTetrahedron<std::uint64_t> bySides(std::array<VertexInfo, 4> corners)
     std::swap(corners[first], corners[first + 1]);
   }
   std::transform(corners.begin(), corners.end(), result.corners.begin(),
-    [](const VertexInfo& corner) { return corner.leaf(); });
+    [](const VertexInfo& corner) { return static_cast<std::size_t>(corner.leaf()); });
   return result;
 }
 
@@ -107,39 +108,32 @@ public:
   void orderExplored(const Execution& execution, std::size_t first,
     const std::function<std::uint64_t(std::uint64_t leaf)>& placeOf)
   {
-    struct Placed
-    {
-      std::array<std::uint64_t, 4> places; // ascending
-      Cell cell;
-
-      bool operator<(const Placed& other) const { return this->places < other.places; }
-      bool operator==(const Placed& other) const { return this->places == other.places; }
-    };
-    std::vector<Placed> placed(this->Explored.size() - first);
-    std::atomic<std::uint64_t> most{ 0 };
-    forEachIndex(execution, placed.size(),
+    using Places = std::array<std::uint64_t, 4>; // ascending
+    const std::vector<Cell> cells(
+      this->Explored.begin() + static_cast<std::ptrdiff_t>(first), this->Explored.end());
+    const std::vector<Places> places = tabulated<Places>(execution, cells.size(),
       [&](std::size_t i)
       {
-        auto& [places, cell] = placed[i];
-        cell = this->Explored[first + i];
+        Places ofCorners{};
         for (int corner = 0; corner < 4; ++corner)
         {
-          places[static_cast<std::size_t>(corner)] = placeOf(cell->vertex(corner)->info().leaf());
+          ofCorners[static_cast<std::size_t>(corner)] =
+            placeOf(cells[i]->vertex(corner)->info().leaf());
         }
-        std::sort(places.begin(), places.end());
-        std::uint64_t former = most.load(std::memory_order_relaxed);
-        while (former < places[0] &&
-               !most.compare_exchange_weak(former, places[0], std::memory_order_relaxed))
-        {
-        }
+        std::sort(ofCorners.begin(), ofCorners.end());
+        return ofCorners;
       });
-    placed =
-      sortedUnique(execution, placed, most + 1, [](const Placed& each) { return each.places[0]; });
-    forEachIndex(execution, placed.size(),
+    std::uint64_t most = 0;
+    forEachInOrder(
+      execution, places.size(), [&](std::size_t i) { most = std::max(most, places[i][0]); });
+    const std::vector<std::size_t> order = orderByKeys(
+      execution, cells.size(), most + 1, [&](std::size_t i) { return places[i]; },
+      [](const Places& ofCorners) { return ofCorners[0]; });
+    forEachIndex(execution, order.size(),
       [&](std::size_t i)
       {
-        this->Explored[first + i] = placed[i].cell;
-        placed[i].cell->info().setNumber(first + i);
+        this->Explored[first + i] = cells[order[i]];
+        cells[order[i]]->info().setNumber(first + i);
       });
   }
 
@@ -159,13 +153,7 @@ public:
       forEachInOrder(execution, all.size(), [&](std::size_t i) { all[i] = next++; });
       this->All = std::move(all);
     }
-    constexpr std::size_t grain = 16384;
-    this->Listed = collected<Cell>(execution, { this->All.size(), 4 * grain, grain },
-      [&](std::size_t begin, std::size_t end, std::vector<Cell>& found)
-      {
-        std::copy_if(this->All.begin() + static_cast<std::ptrdiff_t>(begin),
-          this->All.begin() + static_cast<std::ptrdiff_t>(end), std::back_inserter(found), test);
-      });
+    this->Listed = chosenThat(execution, this->All, test);
     return this->Listed.size();
   }
 
@@ -458,23 +446,20 @@ std::size_t PartialTriangulation::across(const ExploredFacet& facet) const
 
 FacetCorners PartialTriangulation::cornersOf(const ExploredFacet& facet) const
 {
-  FacetCorners corners{};
+  FacetCorners result{};
   for (std::size_t i = 0; i < 3; ++i)
   {
     const VertexInfo& info =
       this->Inside->Explored[facet.tetrahedron]->vertex(outwardFacets[facet.corner][i])->info();
-    corners.leaves[i] = info.leaf();
-    corners.areBelow[i] = info.isBelow();
+    result.corners[i] = static_cast<std::size_t>(info.leaf());
+    result.areBelow[i] = info.isBelow();
   }
-  return corners;
+  return result;
 }
 
-CrossingTetrahedron<std::uint64_t> PartialTriangulation::exploredTetrahedron(
-  std::size_t tetrahedron) const
+CrossingTetrahedron PartialTriangulation::exploredTetrahedron(std::size_t tetrahedron) const
 {
-  const Cell cell = this->Inside->Explored[tetrahedron];
-  return bySides({ cell->vertex(0)->info(), cell->vertex(1)->info(), cell->vertex(2)->info(),
-    cell->vertex(3)->info() });
+  return bySides(this->Inside->Explored[tetrahedron]);
 }
 
 ExploredFacet PartialTriangulation::wedgeEnd(
@@ -511,12 +496,10 @@ void PartialTriangulation::dropLists()
   this->Inside->Listed = std::vector<Cell>();
 }
 
-CrossingTetrahedron<std::uint64_t> PartialTriangulation::crossingTetrahedronAt(
-  std::size_t tetrahedron) const
+CrossingTetrahedron PartialTriangulation::crossingTetrahedronAt(std::size_t tetrahedron) const
 {
   const Cell cell = this->Inside->Listed[tetrahedron];
-  CrossingTetrahedron<std::uint64_t> result = bySides({ cell->vertex(0)->info(),
-    cell->vertex(1)->info(), cell->vertex(2)->info(), cell->vertex(3)->info() });
+  CrossingTetrahedron result = bySides(cell);
   result.isAtHull = this->Inside->isCrossingAtHull(cell);
   return result;
 }

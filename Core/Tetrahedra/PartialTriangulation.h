@@ -25,11 +25,10 @@ struct BandSite
 };
 
 /// A tetrahedron, mostly with corners on both sides of the isovalue.
-template <class TId>
 struct CrossingTetrahedron
 {
   /// Node indices of the leaves at the corners, those below first, in positive orientation.
-  std::array<TId, 4> corners;
+  std::array<std::size_t, 4> corners;
   std::uint8_t belowCount; // 1 to 3 if it is crossing
   bool isAtHull;           // whether a crossing facet lies on the convex hull
 };
@@ -49,7 +48,7 @@ struct ExploredFacet
 /// The corners of a facet, counterclockwise seen from outside its tetrahedron.
 struct FacetCorners
 {
-  std::array<std::uint64_t, 3> leaves;
+  std::array<std::size_t, 3> corners; // leaves
   std::array<bool, 3> areBelow;
 
   bool isAllBelow() const { return this->areBelow[0] && this->areBelow[1] && this->areBelow[2]; }
@@ -154,7 +153,7 @@ public:
   std::size_t across(const ExploredFacet& facet) const;
 
   FacetCorners cornersOf(const ExploredFacet& facet) const;
-  CrossingTetrahedron<std::uint64_t> exploredTetrahedron(std::size_t tetrahedron) const;
+  CrossingTetrahedron exploredTetrahedron(std::size_t tetrahedron) const;
 
   /// Walks around an edge of a facet at the border of a body, through the body, to the facet of its
   /// border that bounds the same wedge. From any thread. O(tetrahedra at the edge)
@@ -172,7 +171,7 @@ public:
   void dropLists();
 
   /// A listed crossing tetrahedron. From any thread.
-  CrossingTetrahedron<std::uint64_t> crossingTetrahedronAt(std::size_t tetrahedron) const;
+  CrossingTetrahedron crossingTetrahedronAt(std::size_t tetrahedron) const;
 
 private:
   class Internals;

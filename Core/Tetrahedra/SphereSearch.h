@@ -57,10 +57,6 @@ public:
 
   /// Whether a box may intersect the ball.
   bool mayHold(const Bounds& bounds) const { return !SphereFunction::isPositive(bounds); }
-  bool mayReach(const Region& box) const
-  {
-    return !SphereFunction::isPositive(this->Ball.leastIn(box));
-  }
 
   bool isAbove(int axis, double coordinate) const { return this->Ball.isAbove(axis, coordinate); }
   Side sideOf(const Vector& position) const { return this->Ball.sideOf(position); }
@@ -102,13 +98,6 @@ public:
     return !SphereFunction::isPositive(bounds.beyond) && this->isFarther(bounds.beyond) &&
            !(SphereFunction::isNotNegative(bounds.beyond) &&
              SphereFunction::isPositive(bounds.ball));
-  }
-  bool mayReach(const Region& box) const
-  {
-    const Vector beyond = this->Beyond.leastIn(box);
-    return !SphereFunction::isPositive(beyond) && this->isFarther(beyond) &&
-           !(SphereFunction::isNotNegative(beyond) &&
-             SphereFunction::isPositive(this->Ball.leastIn(box)));
   }
 
   bool isAbove(int axis, double coordinate) const { return this->Beyond.isAbove(axis, coordinate); }
@@ -190,16 +179,23 @@ private:
   {
     this->Found.reset();
     Region box = this->Tree.region;
-    typename TShape::Bounds bounds{};
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      shape.narrow(bounds, axis, box.lower[axis], box.upper[axis]);
-    }
+    const typename TShape::Bounds bounds = boundsIn(shape, box);
     if (shape.mayHold(bounds))
     {
       this->visit(SampleTree<TSample>::rootNode, shape, bounds, box);
     }
     return this->Found;
+  }
+
+  template <class TShape>
+  static typename TShape::Bounds boundsIn(const TShape& shape, const Region& box)
+  {
+    typename TShape::Bounds bounds{};
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      shape.narrow(bounds, axis, box.lower[axis], box.upper[axis]);
+    }
+    return bounds;
   }
 
   /// @param bounds of the node's region
@@ -272,8 +268,8 @@ private:
       return std::any_of(samples + node.begin, samples + node.end,
         [&](const TSample& sample) { return shape.sideOf(positionOf(sample)) != Side::Outside; });
     }
-    return shape.mayReach(
-      this->Boxes.at(nodeIndex, [&]() { return boxOfSamples(this->Tree, node); }));
+    return shape.mayHold(
+      boundsIn(shape, this->Boxes.at(nodeIndex, [&]() { return boxOfSamples(this->Tree, node); })));
   }
 
   /// The same for a node without children.

@@ -94,16 +94,12 @@ void dividePositions(const Execution& execution, SampleTree<TSample>& tree, int 
   {
     return;
   }
-  constexpr std::size_t grain = 1 << 14;
-  forBatches(execution, tree.samples.size(), 16 * grain, grain,
-    [&](std::size_t begin, std::size_t end)
+  forEachIndex(execution, tree.samples.size(),
+    [&](std::size_t i)
     {
-      for (std::size_t i = begin; i < end; ++i)
+      for (auto& coordinate : tree.samples[i].position)
       {
-        for (auto& coordinate : tree.samples[i].position)
-        {
-          divide(coordinate, exponent);
-        }
+        divide(coordinate, exponent);
       }
     });
   for (std::size_t axis = 0; axis < 3; ++axis)

@@ -2,7 +2,6 @@
 #include "Core/Triangles/BodyOrientation.h"
 
 #include "Core/Base/Lists.h"
-#include "Core/Extraction/Isosurface.h"
 #include "Core/Triangles/SurfacePieces.h"
 
 #include <algorithm>
@@ -19,13 +18,33 @@ bool isInverted(double before, double after)
   return (before > 0.0 && !(after > 0.0)) || (before < 0.0 && !(after < 0.0));
 }
 
-/// The triangles whose first corner has a mark.
-std::vector<SurfaceTriangle> marked(const Execution& execution,
-  const std::vector<SurfaceTriangle>& triangles, const std::vector<char>& ofVertices)
+/// Whether a triangle of three vertices faces away when they are at other positions.
+bool isTurned(const std::vector<Vector>& before, const std::vector<Vector>& after,
+  const SurfaceTriangle& triangle)
 {
-  return chosenOf(execution, triangles,
-    itemsThat(execution, triangles.size(),
-      [&](std::size_t i) { return ofVertices[triangles[i][0]] != 0; }));
+  return dot(areaNormal(before, triangle), areaNormal(after, triangle)) < 0.0;
+}
+
+/// By vertex, whether other positions or triangles change the sign of its piece's volume.
+/// @param after triangles of the same pieces
+std::vector<char> areOfInverted(const Execution& execution, const std::vector<Vector>& unmoved,
+  const std::vector<Vector>& moved, const std::vector<SurfaceTriangle>& before,
+  const std::vector<SurfaceTriangle>& after)
+{
+  const std::vector<std::size_t> pieces = piecesOf(execution, before, unmoved.size());
+  const std::vector<double> volumes = volumesOf(execution, pieces, unmoved, before);
+  const std::vector<double> others = volumesOf(execution, pieces, moved, after);
+  return tabulated<char>(execution, pieces.size(),
+    [&](std::size_t vertex)
+    { return isInverted(volumes[pieces[vertex]], others[pieces[vertex]]); });
+}
+
+/// The triangles whose first corner has a mark, or those whose has none.
+std::vector<SurfaceTriangle> marked(const Execution& execution,
+  const std::vector<SurfaceTriangle>& triangles, const std::vector<char>& ofVertices, bool mark)
+{
+  return chosenThat(execution, triangles,
+    [&](const SurfaceTriangle& triangle) { return (ofVertices[triangle[0]] != 0) == mark; });
 }
 
 /// Triangles of some vertices of two surfaces, numbered one after the other.
@@ -40,32 +59,26 @@ std::vector<SurfaceTriangle> joined(
   return first;
 }
 
-void revert(const Vector& unmoved, LocalFit& fit)
-{
-  fit.order.reset();
-  fit.position = unmoved;
-}
-
 } // namespace
 
 void restoreInvertedPieces(
-  const Execution& execution, const MergeableTriangles& exact, MergedTriangles& merged)
+  const Execution& execution, const MergeableTriangles& exact, CrossingMesh& merged)
 {
-  const SurfacePieces before(execution, exact.triangles, exact.crossings.size());
-  const SurfacePieces after(execution, merged.triangles, merged.size());
+  const std::vector<std::size_t> before =
+    piecesOf(execution, exact.triangles, exact.crossings.size());
+  const std::vector<std::size_t> after = piecesOf(execution, merged.triangles, merged.size());
   const std::vector<double> exactVolumes =
     volumesOf(execution, before, exact.crossings, exact.triangles);
   const std::vector<double> volumes =
     volumesOf(execution, after, merged.positions, merged.triangles);
-  const auto exactPieceOf = [&](std::size_t vertex)
-  { return before.pieceOf[merged.members[merged.memberBegins[vertex]]]; };
+  const auto exactPieceOf = [&](std::size_t vertex) { return before[merged.firstMember(vertex)]; };
   std::vector<char> areInverted(exact.crossings.size(), 0); // exact pieces
   bool isAny = false;
   forEachInOrder(execution, merged.size(),
     [&](std::size_t vertex)
     {
       const std::size_t piece = exactPieceOf(vertex);
-      if (after.pieceOf[vertex] == vertex && isInverted(exactVolumes[piece], volumes[vertex]))
+      if (after[vertex] == vertex && isInverted(exactVolumes[piece], volumes[vertex]))
       {
         areInverted[piece] = 1;
         isAny = true;
@@ -75,95 +88,71 @@ void restoreInvertedPieces(
   {
     return;
   }
-  std::vector<char> areKept(merged.size());
-  forEachIndex(execution, areKept.size(),
-    [&](std::size_t vertex) { areKept[vertex] = areInverted[exactPieceOf(vertex)] == 0 ? 1 : 0; });
-  std::vector<char> areRestored(exact.crossings.size());
-  forEachIndex(execution, areRestored.size(),
-    [&](std::size_t vertex) { areRestored[vertex] = areInverted[before.pieceOf[vertex]]; });
-  const std::vector<std::size_t> kept = markedOf(execution, areKept);
+  const std::vector<char> areKept = tabulated<char>(execution, merged.size(),
+    [&](std::size_t vertex) { return areInverted[exactPieceOf(vertex)] == 0; });
+  const std::vector<char> areRestored = tabulated<char>(execution, exact.crossings.size(),
+    [&](std::size_t vertex) { return areInverted[before[vertex]]; });
+  merged.triangles = marked(execution, merged.triangles, areKept, true);
+  merged.caps = marked(execution, merged.caps, areKept, true);
+  merged = inOrder(execution, merged, markedOf(execution, areKept));
   const std::vector<std::size_t> restored = markedOf(execution, areRestored);
-  const auto join =
-    [&](const std::vector<SurfaceTriangle>& ofMerged, const std::vector<SurfaceTriangle>& ofExact)
+  const std::vector<std::size_t> places = placesIn(execution, restored, areRestored.size());
+  const auto append = [&, keptCount = merged.size()](
+                        const std::vector<SurfaceTriangle>& exactOnes, auto& triangles)
   {
-    return joined(renumbered(execution, marked(execution, ofMerged, areKept), kept, merged.size()),
-      renumbered(execution, marked(execution, ofExact, areRestored), restored, areRestored.size()),
-      kept.size());
+    triangles = joined(std::move(triangles),
+      renumbered(
+        execution, marked(execution, exactOnes, areRestored, true), places, restored.size()),
+      keptCount);
   };
-  merged.triangles = join(merged.triangles, exact.triangles);
-  merged.caps = join(merged.caps, exact.caps);
-  std::vector<std::size_t> members;
-  std::vector<std::size_t> begins = chosenLists(execution, merged.memberBegins, kept, members);
-  merged.members = chosenOf(execution, merged.members, members);
-  merged.positions = chosenOf(execution, merged.positions, kept);
+  append(exact.triangles, merged.triangles);
+  append(exact.caps, merged.caps);
   for (const std::size_t vertex : restored)
   {
     merged.members.push_back(vertex);
     merged.positions.push_back(exact.crossings[vertex]);
-    begins.push_back(merged.members.size());
+    merged.memberBegins.push_back(merged.members.size());
   }
-  merged.memberBegins = std::move(begins);
 }
 
 void keepBodiesOriented(const Execution& execution, const std::vector<Vector>& unmoved,
   const std::vector<SurfaceTriangle>& triangles, const std::vector<SurfaceTriangle>& caps,
   std::vector<LocalFit>& fits)
 {
-  const auto isTurned = [&](std::size_t i)
+  std::vector<Vector> positions = tabulated<Vector>(
+    execution, fits.size(), [&](std::size_t vertex) { return fits[vertex].position; });
+  const auto revert = [&](std::size_t vertex)
   {
-    const auto& [a, b, c] = caps[i];
-    const auto positionOf = [&](std::size_t vertex) { return fits[vertex].position; };
-    return dot(cross(unmoved[b] - unmoved[a], unmoved[c] - unmoved[a]),
-             cross(positionOf(b) - positionOf(a), positionOf(c) - positionOf(a))) < 0.0;
+    fits[vertex].order.reset();
+    fits[vertex].position = positions[vertex] = unmoved[vertex];
   };
-  for (std::vector<std::size_t> turned = itemsThat(execution, caps.size(), isTurned);
-       !turned.empty(); turned = itemsThat(execution, caps.size(), isTurned))
+  const auto turnedCaps = [&]()
   {
-    for (const std::size_t cap : turned)
+    return chosenThat(execution, caps,
+      [&](const SurfaceTriangle& cap) { return isTurned(unmoved, positions, cap); });
+  };
+  for (std::vector<SurfaceTriangle> turned = turnedCaps(); !turned.empty(); turned = turnedCaps())
+  {
+    for (const SurfaceTriangle& cap : turned)
     {
-      for (const std::size_t vertex : caps[cap])
-      {
-        revert(unmoved[vertex], fits[vertex]);
-      }
+      std::for_each(cap.begin(), cap.end(), revert);
     }
   }
-  std::vector<Vector> positions(fits.size());
-  forEachIndex(
-    execution, fits.size(), [&](std::size_t vertex) { positions[vertex] = fits[vertex].position; });
-  const SurfacePieces pieces(execution, triangles, fits.size());
-  const std::vector<double> before = volumesOf(execution, pieces, unmoved, triangles);
-  const std::vector<double> after = volumesOf(execution, pieces, positions, triangles);
-  forEachIndex(execution, fits.size(),
-    [&](std::size_t vertex)
-    {
-      const std::size_t piece = pieces.pieceOf[vertex];
-      if (isInverted(before[piece], after[piece]))
-      {
-        revert(unmoved[vertex], fits[vertex]);
-      }
-    });
+  const std::vector<std::size_t> inverted =
+    markedOf(execution, areOfInverted(execution, unmoved, positions, triangles, triangles));
+  std::for_each(inverted.begin(), inverted.end(), revert);
 }
 
 void revertInvertingFlips(const Execution& execution, const std::vector<Vector>& positions,
   const std::vector<SurfaceTriangle>& before, std::vector<SurfaceTriangle>& triangles)
 {
-  const SurfacePieces pieces(execution, before, positions.size());
-  const std::vector<double> volumes = volumesOf(execution, pieces, positions, before);
-  const std::vector<double> flipped = volumesOf(execution, pieces, positions, triangles);
-  std::vector<char> areReverted(positions.size());
-  forEachIndex(execution, areReverted.size(),
-    [&](std::size_t vertex)
-    {
-      const std::size_t piece = pieces.pieceOf[vertex];
-      areReverted[vertex] = isInverted(volumes[piece], flipped[piece]) ? 1 : 0;
-    });
-  const std::vector<SurfaceTriangle> reverted = marked(execution, before, areReverted);
+  const std::vector<char> areReverted =
+    areOfInverted(execution, positions, positions, before, triangles);
+  const std::vector<SurfaceTriangle> reverted = marked(execution, before, areReverted, true);
   if (!reverted.empty())
   {
-    forEachIndex(execution, areReverted.size(),
-      [&](std::size_t vertex) { areReverted[vertex] = areReverted[vertex] == 0 ? 1 : 0; });
-    triangles = ordered(
-      execution, joined(marked(execution, triangles, areReverted), reverted, 0), positions.size());
+    triangles = ordered(execution,
+      joined(marked(execution, triangles, areReverted, false), reverted, 0), positions.size());
   }
 }
 

@@ -17,7 +17,7 @@ namespace isopoint
 /// @throws std::bad_alloc, Aborted
 /// Complexity: O(n log n)
 void restoreInvertedPieces(
-  const Execution& execution, const MergeableTriangles& exact, MergedTriangles& merged);
+  const Execution& execution, const MergeableTriangles& exact, CrossingMesh& merged);
 
 /// Reverts the moves of vertices that turn triangles of caps over, and of pieces whose volume
 /// changes its sign.

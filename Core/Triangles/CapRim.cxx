@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/Triangles/CapRim.h"
 
+#include "Core/Base/Lists.h"
+
 #include <algorithm>
 
 namespace isopoint
@@ -14,9 +16,8 @@ CapRim::CapRim(const Execution& execution, const SurfaceMesh& mesh,
   if (!caps.empty())
   {
     this->AreCaps = areAmong(execution, mesh.triangles(), caps);
-    this->Kinds.resize(positions.size());
-    forEachIndex(execution, this->Kinds.size(),
-      [this](std::size_t vertex) { this->Kinds[vertex] = this->kindAt(vertex); });
+    this->Kinds = tabulated<Kind>(
+      execution, positions.size(), [this](std::size_t vertex) { return this->kindAt(vertex); });
   }
 }
 
@@ -99,9 +100,7 @@ bool CapRim::isSharp(std::size_t vertex) const
   this->Mesh.outgoing().forEachAt(vertex,
     [&](HalfEdge side)
     {
-      const auto& [a, b, c] = this->Mesh.triangles()[side / 3];
-      const Vector normal =
-        cross(this->Positions[b] - this->Positions[a], this->Positions[c] - this->Positions[a]);
+      const Vector normal = areaNormal(this->Positions, this->Mesh.triangles()[side / 3]);
       if (this->AreCaps[side / 3] && lengthOf(normal) > 0.0)
       {
         normals.push_back(directionOf(normal));

@@ -5,26 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <tuple>
-#include <utility>
 
 namespace isopoint
 {
 namespace
 {
-
-/// A triangle with its number, which decides among triangles with the same corners.
-struct NumberedTriangle
-{
-  SurfaceTriangle corners;
-  std::size_t number;
-
-  bool operator<(const NumberedTriangle& other) const
-  {
-    return std::tie(this->corners, this->number) < std::tie(other.corners, other.number);
-  }
-  bool operator==(const NumberedTriangle& other) const { return this->number == other.number; }
-};
 
 class FanSeparation
 {
@@ -67,35 +52,28 @@ private:
     this->orderSources(all, placeOf);
     std::vector<HalfEdge> newSides(3 * all.size(), noHalfEdge);
     this->Triangles.resize(this->Sources.size());
-    std::vector<std::size_t> turns(this->Sources.size());
+    std::vector<HalfEdge> formerSides(3 * this->Sources.size());
     forEachIndex(this->Exec, this->Sources.size(),
       [&](std::size_t i)
       {
-        const std::size_t first = this->firstSide(all, placeOf, this->Sources[i]);
-        HalfEdge side = first;
+        HalfEdge side = this->firstSide(all, placeOf, this->Sources[i]);
         for (std::size_t corner = 0; corner < 3; ++corner, side = nextOf(side))
         {
           this->Triangles[i][corner] = placeOfSide(side);
           newSides[side] = 3 * i + corner;
+          formerSides[3 * i + corner] = side;
         }
-        turns[i] = first;
       });
-    this->Twins.resize(3 * this->Triangles.size());
-    forEachIndex(this->Exec, this->Triangles.size(),
-      [&](std::size_t i)
+    this->Twins = tabulated<HalfEdge>(this->Exec, formerSides.size(),
+      [&](HalfEdge side)
       {
-        HalfEdge side = turns[i];
-        for (std::size_t corner = 0; corner < 3; ++corner, side = nextOf(side))
+        HalfEdge twin = twins[formerSides[side]];
+        while (newSides[twin] == noHalfEdge)
         {
-          HalfEdge twin = twins[side];
-          while (newSides[twin] == noHalfEdge)
-          {
-            // One of the other two sides is at a point.
-            const HalfEdge other = isAtPoint(nextOf(twin)) ? lastOf(twin) : nextOf(twin);
-            twin = twins[other];
-          }
-          this->Twins[3 * i + corner] = newSides[twin];
+          // One of the other two sides is at a point.
+          twin = twins[isAtPoint(nextOf(twin)) ? lastOf(twin) : nextOf(twin)];
         }
+        return newSides[twin];
       });
   }
 
@@ -112,25 +90,23 @@ private:
   void orderSources(
     const std::vector<SurfaceTriangle>& all, const std::vector<std::size_t>& placeOf)
   {
-    std::vector<NumberedTriangle> placed(this->Sources.size());
-    forEachIndex(this->Exec, placed.size(),
-      [&](std::size_t i)
-      {
-        const HalfEdge side = firstSide(all, placeOf, this->Sources[i]);
-        const auto at = [&](HalfEdge corner) { return placeOf[all[corner / 3][corner % 3]]; };
-        placed[i] = { { at(side), at(nextOf(side)), at(lastOf(side)) }, this->Sources[i] };
-      });
-    placed = sortedUnique(this->Exec, placed, this->PlaceCount,
-      [](const NumberedTriangle& each) { return each.corners[0]; });
-    forEachIndex(
-      this->Exec, placed.size(), [&](std::size_t i) { this->Sources[i] = placed[i].number; });
+    const auto placesOf = [&](std::size_t i) -> SurfaceTriangle
+    {
+      const HalfEdge side = firstSide(all, placeOf, this->Sources[i]);
+      const auto at = [&](HalfEdge corner) { return placeOf[all[corner / 3][corner % 3]]; };
+      return { at(side), at(nextOf(side)), at(lastOf(side)) };
+    };
+    this->Sources = chosenOf(this->Exec, this->Sources,
+      orderByKeys(this->Exec, this->Sources.size(), this->PlaceCount, placesOf, firstOf));
   }
+
+  static std::size_t firstOf(const SurfaceTriangle& triangle) { return triangle[0]; }
 
   /// Numbers the fans by place, then by their first triangle.
   void numberFans()
   {
     this->Fans.assign(this->Twins.size(), noHalfEdge);
-    std::vector<std::pair<std::size_t, HalfEdge>> firsts; // by place
+    std::vector<std::size_t> places; // of the fans in the order of their first triangles
     forEachInOrder(this->Exec, this->Twins.size(),
       [&](HalfEdge first)
       {
@@ -139,24 +115,17 @@ private:
           HalfEdge side = first;
           do
           {
-            this->Fans[side] = firsts.size();
+            this->Fans[side] = places.size();
             side = this->Twins[lastOf(side)];
           } while (side != first);
-          firsts.emplace_back(this->placeAt(first), firsts.size());
+          places.push_back(this->placeAt(first));
         }
       });
-    firsts =
-      sortedUnique(this->Exec, firsts, this->PlaceCount, [](const auto& fan) { return fan.first; });
-    std::vector<std::size_t> numbers(firsts.size());
-    this->Places.resize(firsts.size());
-    forEachIndex(this->Exec, firsts.size(),
-      [&](std::size_t number)
-      {
-        numbers[firsts[number].second] = number;
-        this->Places[number] = firsts[number].first;
-      });
-    forEachIndex(this->Exec, this->Fans.size(),
-      [&](HalfEdge side) { this->Fans[side] = numbers[this->Fans[side]]; });
+    const std::vector<std::size_t> order = orderByKeys(
+      this->Exec, places.size(), this->PlaceCount, [&](std::size_t fan) { return places[fan]; },
+      [](std::size_t place) { return place; });
+    this->Places = chosenOf(this->Exec, places, order);
+    this->Fans = chosenOf(this->Exec, placesIn(this->Exec, order, order.size()), this->Fans);
   }
 
   /// Exchanges the twins of two edges with the same two vertices, which separates a fan at each.
@@ -164,44 +133,30 @@ private:
   /// @returns whether there were any
   bool pairAnew()
   {
-    struct Edge
-    {
-      std::size_t start; // the lower vertex
-      std::size_t end;
-      HalfEdge side; // from start to end
-      bool operator<(const Edge& other) const
-      {
-        return std::tie(this->start, this->end, this->side) <
-               std::tie(other.start, other.end, other.side);
-      }
-      bool operator==(const Edge& other) const { return this->side == other.side; }
+    using Edge = std::array<std::size_t, 2>; // vertices
+    const auto edgeOf = [this](HalfEdge side) -> Edge {
+      return { this->fanAt(side), this->fanAt(nextOf(side)) };
     };
-    std::vector<Edge> edges;
-    edges.reserve(this->Fans.size() / 2);
-    forEachInOrder(this->Exec, this->Fans.size(),
-      [&](HalfEdge side)
-      {
-        if (this->fanAt(side) < this->fanAt(nextOf(side)))
-        {
-          edges.push_back({ this->fanAt(side), this->fanAt(nextOf(side)), side });
-        }
-      });
-    edges = sortedUnique(
-      this->Exec, edges, this->Places.size(), [](const Edge& edge) { return edge.start; });
+    const std::vector<HalfEdge> rising = itemsThat(this->Exec, this->Fans.size(),
+      [&](HalfEdge side) { return this->fanAt(side) < this->fanAt(nextOf(side)); });
+    const std::vector<HalfEdge> sides = chosenOf(this->Exec, rising,
+      orderByKeys(
+        this->Exec, rising.size(), this->Places.size(),
+        [&](std::size_t i) { return edgeOf(rising[i]); },
+        [](const Edge& edge) { return edge[0]; }));
     bool isAny = false;
     std::vector<char> areChanged(this->Places.size(), 0);
-    forEachInOrder(this->Exec, edges.empty() ? 0 : edges.size() - 1,
+    forEachInOrder(this->Exec, sides.empty() ? 0 : sides.size() - 1,
       [&](std::size_t i)
       {
-        const Edge& a = edges[i];
-        const Edge& b = edges[i + 1];
-        if (a.start == b.start && a.end == b.end && !areChanged[a.start] && !areChanged[a.end])
+        const auto [start, end] = edgeOf(sides[i]);
+        if (edgeOf(sides[i + 1]) == Edge{ start, end } && !areChanged[start] && !areChanged[end])
         {
-          areChanged[a.start] = 1;
-          areChanged[a.end] = 1;
-          const HalfEdge last = this->Twins[b.side];
-          this->pair(b.side, this->Twins[a.side]);
-          this->pair(a.side, last);
+          areChanged[start] = 1;
+          areChanged[end] = 1;
+          const HalfEdge last = this->Twins[sides[i + 1]];
+          this->pair(sides[i + 1], this->Twins[sides[i]]);
+          this->pair(sides[i], last);
           isAny = true;
         }
       });
@@ -216,26 +171,16 @@ private:
 
   ClosedTriangles ordered() const
   {
-    std::vector<NumberedTriangle> all(this->Triangles.size());
-    forEachIndex(this->Exec, all.size(),
-      [&](std::size_t i)
-      {
-        // The fan at the lowest place is the lowest one.
-        all[i] = { { this->Fans[3 * i], this->Fans[3 * i + 1], this->Fans[3 * i + 2] }, i };
-      });
-    all = sortedUnique(this->Exec, all, this->Places.size(),
-      [](const NumberedTriangle& each) { return each.corners[0]; });
-    ClosedTriangles result;
-    result.places = this->Places;
-    result.triangles.resize(all.size());
-    result.sources.resize(all.size());
-    forEachIndex(this->Exec, all.size(),
-      [&](std::size_t i)
-      {
-        result.triangles[i] = all[i].corners;
-        result.sources[i] = this->Sources[all[i].number];
-      });
-    return result;
+    // The fan at the lowest place is the lowest one.
+    const std::vector<SurfaceTriangle> all =
+      tabulated<SurfaceTriangle>(this->Exec, this->Triangles.size(),
+        [this](std::size_t i) -> SurfaceTriangle {
+          return { this->Fans[3 * i], this->Fans[3 * i + 1], this->Fans[3 * i + 2] };
+        });
+    const std::vector<std::size_t> order = orderByKeys(
+      this->Exec, all.size(), this->Places.size(), [&](std::size_t i) { return all[i]; }, firstOf);
+    return { this->Places, chosenOf(this->Exec, all, order),
+      chosenOf(this->Exec, this->Sources, order) };
   }
 
   const Execution& Exec;

@@ -40,6 +40,13 @@ public:
     return vertex;
   }
 
+  /// The same for all vertices. @throws std::bad_alloc, Aborted
+  std::vector<std::size_t> roots(const Execution& execution)
+  {
+    return tabulated<std::size_t>(
+      execution, this->Parents.size(), [this](std::size_t vertex) { return this->rootOf(vertex); });
+  }
+
   void unite(std::size_t a, std::size_t b)
   {
     for (;;)

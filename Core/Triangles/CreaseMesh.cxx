@@ -16,11 +16,9 @@ namespace isopoint
 
 CreaseSurface::CreaseSurface(const Execution& execution, Isosurface& vertices)
   : surface(vertices)
-  , normals(vertices.fits.size())
+  , normals(tabulated<Vector>(execution, vertices.fits.size(),
+      [&](std::size_t vertex) { return -directionOf(vertices.fits[vertex].gradient); }))
 {
-  forEachIndex(execution, this->normals.size(),
-    [this](std::size_t vertex)
-    { this->normals[vertex] = -directionOf(this->fitOf(vertex).gradient); });
 }
 
 Vector CreaseSurface::normalOf(std::initializer_list<std::size_t> vertices) const
@@ -178,7 +176,8 @@ std::vector<Facet> withoutShortEdges(
     const auto staysOnPiece = [&](const Facet& moved)
     {
       constexpr double minCosine = 0.95;
-      return mesh.signedArea(moved) >= minCosine * lengthOf(mesh.areaNormal(moved.corners));
+      return mesh.signedArea(moved) >=
+             minCosine * lengthOf(areaNormal(whole.surface.positions, moved.corners));
     };
     for (const auto& [a, b] : shortEdges(execution, whole.surface.positions, mesh.connectivity()))
     {
@@ -238,19 +237,13 @@ private:
     const std::vector<char> areNear =
       areAtCreases(this->Exec, this->Whole.surface.fits, this->Triangles);
     this->Whole.isInner.assign(areNear.begin(), areNear.end());
-    std::vector<char> areTaken(this->Triangles.size(), 0);
-    forEachIndex(this->Exec, areTaken.size(),
-      [&](std::size_t i)
-      {
-        const SurfaceTriangle& triangle = this->Triangles[i];
-        areTaken[i] = areNear[triangle[0]] || areNear[triangle[1]] || areNear[triangle[2]] ? 1 : 0;
-      });
-    const std::vector<std::size_t> taken = markedOf(this->Exec, areTaken);
-    std::vector<Facet> facets(taken.size());
-    forEachIndex(this->Exec, taken.size(),
-      [&](std::size_t i) { facets[i] = this->Whole.facetOf(this->Triangles[taken[i]]); });
-    dropMarked(this->Exec, areTaken, this->Triangles);
-    return facets;
+    const auto isTaken = [&](const SurfaceTriangle& triangle)
+    { return areNear[triangle[0]] || areNear[triangle[1]] || areNear[triangle[2]]; };
+    const std::vector<SurfaceTriangle> taken = chosenThat(this->Exec, this->Triangles, isTaken);
+    this->Triangles = chosenThat(this->Exec, this->Triangles,
+      [&](const SurfaceTriangle& triangle) { return !isTaken(triangle); });
+    return tabulated<Facet>(
+      this->Exec, taken.size(), [&](std::size_t i) { return this->Whole.facetOf(taken[i]); });
   }
 
   /// Duplicates vertices between pieces. A piece's copy has the normal of its first facet.
@@ -291,7 +284,8 @@ private:
   {
     Isosurface& surface = this->Whole.surface;
     const std::vector<std::size_t> kept = verticesOf(this->Exec, this->Triangles, surface.size());
-    this->Triangles = renumbered(this->Exec, this->Triangles, kept, surface.size());
+    this->Triangles = renumbered(
+      this->Exec, this->Triangles, placesIn(this->Exec, kept, surface.size()), kept.size());
     if (kept.size() < surface.size())
     {
       surface = chosenIsopoints(this->Exec, surface, kept);
@@ -308,22 +302,12 @@ private:
 std::vector<char> areAtCreases(const Execution& execution, const std::vector<LocalFit>& fits,
   const std::vector<SurfaceTriangle>& triangles)
 {
-  const std::vector<std::size_t> found = itemsThat(execution, triangles.size(),
-    [&](std::size_t i)
-    {
-      return std::any_of(triangles[i].begin(), triangles[i].end(),
-        [&](std::size_t corner) { return fits[corner].order == FitOrder::Crease; });
-    });
-  std::vector<char> areAtCrease(fits.size(), 0);
-  forEachInOrder(execution, found.size(),
-    [&](std::size_t i)
-    {
-      for (const std::size_t corner : triangles[found[i]])
-      {
-        areAtCrease[corner] = 1;
-      }
-    });
-  return areAtCrease;
+  const auto isAtCrease = [&](const SurfaceTriangle& triangle)
+  {
+    return std::any_of(triangle.begin(), triangle.end(),
+      [&](std::size_t corner) { return fits[corner].order == FitOrder::Crease; });
+  };
+  return areVerticesOf(execution, chosenThat(execution, triangles, isAtCrease), fits.size());
 }
 
 void meshCreases(const Execution& execution, Isosurface& surface,

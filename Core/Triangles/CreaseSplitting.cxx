@@ -46,28 +46,22 @@ public:
           this->mergeWithNearest(mesh, vertex);
         }
       });
-    this->Pieces.resize(this->Whole.isInner.size());
-    forEachIndex(this->Exec, this->Pieces.size(),
-      [&](std::size_t vertex) {
-        this->Pieces[vertex] = this->Whole.isInner[vertex] ? this->pieceOf(mesh, vertex) : vertex;
-      });
+    this->Pieces = tabulated<std::size_t>(this->Exec, this->Whole.isInner.size(),
+      [&](std::size_t vertex)
+      { return this->Whole.isInner[vertex] ? this->pieceOf(mesh, vertex) : vertex; });
     return mesh.facets();
   }
 
   std::vector<Facet> split(const std::vector<Facet>& facets)
   {
-    constexpr std::size_t grain = 4096;
-    this->Edges = collected<Edge>(this->Exec, { facets.size(), 4 * grain, grain },
-      [&](std::size_t begin, std::size_t end, std::vector<Edge>& found)
+    this->Edges = collectedFromEach<Edge>(this->Exec, 3 * facets.size(),
+      [&](HalfEdge side, std::vector<Edge>& found)
       {
-        for (std::size_t i = 3 * begin; i < 3 * end; ++i)
+        const SurfaceTriangle& corners = facets[side / 3].corners;
+        const Edge edge = std::minmax({ corners[side % 3], corners[(side + 1) % 3] });
+        if (this->isAcrossCrease(edge.first, edge.second))
         {
-          const SurfaceTriangle& corners = facets[i / 3].corners;
-          const Edge edge = std::minmax({ corners[i % 3], corners[(i + 1) % 3] });
-          if (this->isAcrossCrease(edge.first, edge.second))
-          {
-            found.push_back(edge);
-          }
+          found.push_back(edge);
         }
       });
     this->Edges = sortedUnique(this->Exec, this->Edges, this->Whole.surface.size(),

@@ -8,13 +8,13 @@
 #include "Core/Tetrahedra/PartialTriangulation.h"
 #include "Core/Tree/CoincidentSamples.h"
 #include "Core/Triangles/BodyTetrahedra.h"
+#include "Core/Triangles/VertexMerging.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
-#include <unordered_map>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -27,6 +27,30 @@ enum class EdgeOrder
   Ids, // by the ids of their ends
   Tree // by the places of their ends in the tree, independent of sample ids
 };
+
+/// A surface in a tetrahedralization, before vertices are merged.
+template <class TSample>
+struct MarchedTriangles
+{
+  std::vector<CrossingEdge<TSample>> edges; // by crossing, sorted by the edges' ends in the tree
+  CrossingMesh mesh;                        // each vertex is one crossing
+  std::vector<std::size_t> nearerEnds;      // of the edges, numbered by their places in the tree
+  std::size_t endCount = 0;                 // exceeds all of these numbers
+};
+
+/// The order of edges by their ends' ids; equal ones stay in theirs. @throws std::bad_alloc,
+/// Aborted
+/// @param edgeOf(i) the edge of each of `count` items
+template <class EdgeOf>
+std::vector<std::size_t> orderOfEdges(
+  const Execution& execution, std::size_t count, const EdgeOf& edgeOf)
+{
+  std::uint64_t most = 0;
+  forEachInOrder(execution, count, [&](std::size_t i) { most = std::max(most, edgeOf(i).first); });
+  return orderByKeys(
+    execution, count, most + 1, [&](std::size_t i) -> SampleEdge { return edgeOf(i); },
+    [](const SampleEdge& edge) { return edge.first; });
+}
 
 /// The vertices of a surface in a tetrahedralization: crossing edges of tetrahedra and, at the
 /// border of a body, samples. Each is a *pair* of leaves, twice the same for a sample.
@@ -49,7 +73,7 @@ public:
   /// @param tetrahedra, caps their corners are leaves of the tree
   CrossingVertices(const Execution& execution, const SampleTree<TSample>& tree,
     LeafValues<TSample>& values, double isovalue, EdgeOrder order,
-    const std::vector<CrossingTetrahedron<Id>>& tetrahedra, const std::vector<CapFacet<Id>>& caps)
+    const std::vector<CrossingTetrahedron>& tetrahedra, const std::vector<CapFacet>& caps)
     : Exec(execution)
     , Tree(tree)
     , Values(values)
@@ -73,10 +97,10 @@ public:
     this->Exec.progress(1.0);
   }
 
-  Polygon polygonOf(const CrossingTetrahedron<Id>& tetrahedron) const
+  Polygon polygonOf(const CrossingTetrahedron& tetrahedron) const
   {
     const auto numberOf = [&](std::size_t corner)
-    { return this->NumberOf[static_cast<std::size_t>(tetrahedron.corners[corner])]; };
+    { return this->NumberOf[tetrahedron.corners[corner]]; };
     const Id a = numberOf(0);
     const Id b = numberOf(1);
     const Id c = numberOf(2);
@@ -94,14 +118,14 @@ public:
 
   /// The polygon of a cap: its part that is not below the isovalue. Sets, per side of the facet
   /// with an end that is not below, the place in the polygon at which its part begins.
-  Polygon polygonOf(const CapFacet<Id>& cap, std::array<std::size_t, 3>& begins) const
+  Polygon polygonOf(const CapFacet& cap, std::array<std::size_t, 3>& begins) const
   {
     Polygon polygon{};
     for (std::size_t side = 0; side < 3; ++side)
     {
       const std::size_t next = (side + 1) % 3;
-      const Id start = this->NumberOf[static_cast<std::size_t>(cap.corners[side])];
-      const Id end = this->NumberOf[static_cast<std::size_t>(cap.corners[next])];
+      const Id start = this->NumberOf[cap.corners[side]];
+      const Id end = this->NumberOf[cap.corners[next]];
       begins[side] = polygon.count;
       if (!cap.areBelow[side])
       {
@@ -131,16 +155,53 @@ public:
   /// The pair whose vertex represents that of a pair: another one if it crosses at a sample.
   std::size_t vertexOf(std::size_t pair) const { return this->VertexOf[pair]; }
 
-  // By the number of a pair:
+  /// By the number of a pair.
   const std::vector<CrossingEdge<TSample>>& edges() const { return this->Edges; }
-  const std::vector<Vector>& positions() const { return this->Positions; }
-  const std::vector<std::size_t>& nearerEnds() const { return this->NearerEnds; }
 
-  /// Exceeds all nearer ends.
-  std::size_t endCount() const { return this->Leaves.size(); }
+  /// The crossings of some pairs, without triangles. @throws std::bad_alloc, Aborted
+  MarchedTriangles<TSample> chosen(const std::vector<std::size_t>& pairs) const
+  {
+    MarchedTriangles<TSample> result;
+    result.edges = chosenOf(this->Exec, this->Edges, pairs);
+    result.mesh.positions = chosenOf(this->Exec, this->Positions, pairs);
+    result.mesh.members = numbersBelow(pairs.size());
+    result.nearerEnds = chosenOf(this->Exec, this->NearerEnds, pairs);
+    result.endCount = this->Leaves.size();
+    return result;
+  }
 
-  /// Whether to split a quadrilateral at its first corner: along the shorter diagonal or, if equal,
+  /// Splits a polygon into triangles: a quadrilateral along the shorter diagonal or, if equal,
   /// along the one from the vertex of the first edge.
+  /// @param count of the corners, which are pairs; less than 3 for no triangle
+  /// @param add(triangle) called for each
+  /// @returns the corner at which the first triangle begins
+  template <class Add>
+  std::size_t split(
+    const std::array<std::size_t, 4>& corners, std::size_t count, const Add& add) const
+  {
+    const std::size_t from = count == 4 && !this->cutsFirst(corners) ? 1 : 0;
+    const auto corner = [&](std::size_t i) { return corners[(from + i) % count]; };
+    if (count >= 3)
+    {
+      add(SurfaceTriangle{ corner(0), corner(1), corner(2) });
+    }
+    if (count == 4)
+    {
+      add(SurfaceTriangle{ corner(2), corner(3), corner(0) });
+    }
+    return from;
+  }
+
+private:
+  /// The end at which an edge crosses, if any; tested from either end, because of rounding.
+  enum class End : char
+  {
+    Neither,
+    Lower,
+    Upper
+  };
+
+  /// Whether to split a quadrilateral at its first corner.
   bool cutsFirst(const std::array<std::size_t, 4>& corners) const
   {
     const auto lengthBetween = [&](std::size_t a, std::size_t b)
@@ -156,15 +217,6 @@ public:
     return this->isBefore(firstOf(0, 2), firstOf(1, 3));
   }
 
-private:
-  /// The end at which an edge crosses, if any; tested from either end, because of rounding.
-  enum class End : char
-  {
-    Neither,
-    Lower,
-    Upper
-  };
-
   static LeafPair pairOf(Id a, Id b) { return std::minmax(a, b); }
 
   bool isAtSample(std::size_t pair) const
@@ -178,9 +230,9 @@ private:
     std::vector<bool> isCorner(this->Tree.nodes.size(), false);
     const auto mark = [&isCorner](const auto& corners)
     {
-      for (const Id corner : corners)
+      for (const std::size_t corner : corners)
       {
-        isCorner[static_cast<std::size_t>(corner)] = true;
+        isCorner[corner] = true;
       }
     };
     forEachInOrder(this->Exec, this->Tetrahedra.size(),
@@ -251,15 +303,8 @@ private:
     this->Positions.resize(this->Pairs.size());
     this->NearerEnds.resize(this->Pairs.size());
     this->Ends.resize(this->Pairs.size());
-    constexpr std::size_t grain = 4096;
-    forBatches(this->Exec, this->Pairs.size(), 8 * grain, grain,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          this->placeVertex(i);
-        }
-      });
+    forEachIndex(
+      this->Exec, this->Pairs.size(), [this](std::size_t pair) { this->placeVertex(pair); });
   }
 
   void placeVertex(std::size_t vertex)
@@ -301,12 +346,13 @@ private:
   /// them if there is one.
   void mergeAtSamples()
   {
-    this->VertexOf.resize(this->Edges.size());
-    std::iota(this->VertexOf.begin(), this->VertexOf.end(), std::size_t{ 0 });
-    std::unordered_map<Id, std::size_t> vertexAt; // by end
-    const auto add = [&](Id end, std::size_t edge)
+    this->VertexOf = numbersBelow(this->Edges.size());
+    constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+    std::vector<std::size_t> vertexAt(this->Leaves.size(), none); // by end
+    const auto add = [&](std::size_t end, std::size_t edge)
     {
-      std::size_t& vertex = vertexAt.emplace(end, edge).first->second;
+      std::size_t& vertex = vertexAt[end];
+      vertex = vertex == none ? edge : vertex;
       if (this->isAtSample(edge) != this->isAtSample(vertex) ? this->isAtSample(edge)
                                                              : this->isBefore(edge, vertex))
       {
@@ -316,14 +362,14 @@ private:
     const auto endOf = [this](std::size_t edge)
     {
       const auto& [lower, upper] = this->Pairs[edge];
-      return this->Ends[edge] == End::Lower ? lower : upper;
+      return static_cast<std::size_t>(this->Ends[edge] == End::Lower ? lower : upper);
     };
     const std::vector<std::size_t> merged = itemsThat(this->Exec, this->Edges.size(),
       [this](std::size_t edge) { return this->Ends[edge] != End::Neither; });
     forEachInOrder(
       this->Exec, merged.size(), [&](std::size_t i) { add(endOf(merged[i]), merged[i]); });
     forEachIndex(this->Exec, merged.size(),
-      [&](std::size_t i) { this->VertexOf[merged[i]] = vertexAt.at(endOf(merged[i])); });
+      [&](std::size_t i) { this->VertexOf[merged[i]] = vertexAt[endOf(merged[i])]; });
   }
 
   const Execution& Exec;
@@ -331,8 +377,8 @@ private:
   LeafValues<TSample>& Values;
   const double Isovalue;
   const EdgeOrder Order;
-  const std::vector<CrossingTetrahedron<Id>>& Tetrahedra;
-  const std::vector<CapFacet<Id>>& Caps;
+  const std::vector<CrossingTetrahedron>& Tetrahedra;
+  const std::vector<CapFacet>& Caps;
   std::vector<Id> Leaves;              // by number
   std::vector<Id> NumberOf;            // by leaf
   std::vector<LeafPair> Pairs;         // ordered

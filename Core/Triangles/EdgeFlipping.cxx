@@ -121,11 +121,6 @@ private:
     return this->Positions[to] - this->Positions[from];
   }
 
-  Vector normalOf(std::size_t a, std::size_t b, std::size_t c) const
-  {
-    return cross(this->edgeOf(a, b), this->edgeOf(a, c));
-  }
-
   /// Whether a flip makes the two triangles at a side more regular and keeps them upright.
   bool isImproved(HalfEdge side) const
   {
@@ -187,7 +182,7 @@ private:
   double uprightness(const SurfaceTriangle& triangle) const
   {
     const auto& [a, b, c] = triangle;
-    const Vector normal = this->normalOf(a, b, c);
+    const Vector normal = areaNormal(this->Positions, triangle);
     const Vector around = this->Normals[a] + this->Normals[b] + this->Normals[c];
     const double lengths = lengthOf(normal) * lengthOf(around);
     return lengths > 0.0 ? dot(normal, around) / lengths : -1.0;
@@ -202,8 +197,8 @@ private:
   bool isCrease(std::size_t a, std::size_t b, std::size_t c, std::size_t d) const
   {
     constexpr double minCosine = 0.5;
-    const Vector first = this->normalOf(a, b, c);
-    const Vector second = this->normalOf(b, a, d);
+    const Vector first = areaNormal(this->Positions, { a, b, c });
+    const Vector second = areaNormal(this->Positions, { b, a, d });
     return dot(first, second) < minCosine * lengthOf(first) * lengthOf(second) &&
            this->minUprightness({ a, b, c }, { b, a, d }) >= upright;
   }

@@ -11,19 +11,16 @@
 #include "Core/Tetrahedra/CrossingTetrahedra.h"
 #include "Core/Tetrahedra/KeptTetrahedra.h"
 #include "Core/Triangles/BodyOrientation.h"
-#include "Core/Triangles/BodySurface.h"
 #include "Core/Triangles/BodyTetrahedra.h"
 #include "Core/Triangles/CreaseMesh.h"
 #include "Core/Triangles/EdgeFlipping.h"
-#include "Core/Triangles/EdgeTriangles.h"
 #include "Core/Triangles/GapTetrahedra.h"
 #include "Core/Triangles/MarchingTetrahedra.h"
 #include "Core/Triangles/SurfacePieces.h"
 #include "Core/Triangles/TriangleGeometry.h"
+#include "Core/Triangles/VertexMerging.h"
 
-#include <algorithm>
 #include <cstddef>
-#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -76,21 +73,21 @@ public:
     const double mergingBegin = this->Request.fit ? 0.6 : 0.85;
     const double fitsBegin = this->hasCreases() ? 0.8 : mergingBegin + 0.05;
     MarchedTriangles<TSample> marched = this->march(partOf(this->Exec, 0.0, mergingBegin));
+    this->Edges = std::move(marched.edges);
     ExtractionContext<TSample> context(this->Tree, this->Neighborhoods, this->Request.isovalue);
-    FitsAtEdges known;
-    EdgeTriangles<TSample> mesh = this->Request.regularizes
-                                    ? this->merge(partOf(this->Exec, mergingBegin, fitsBegin),
-                                        context, std::move(marched), known)
-                                    : EdgeTriangles<TSample>(std::move(marched));
+    CrossingMesh mesh =
+      this->Request.regularizes
+        ? this->merge(partOf(this->Exec, mergingBegin, fitsBegin), context, std::move(marched))
+        : std::move(marched.mesh);
     std::vector<LocalFit> fits;
     if (this->Request.fit)
     {
-      fits = this->fitTo(partOf(this->Exec, fitsBegin, fitsEnd), context, mesh, known);
+      fits = this->fitTo(partOf(this->Exec, fitsBegin, fitsEnd), context, mesh);
     }
-    return this->place(partOf(this->Exec, fitsEnd, 1.0), context, mesh, std::move(fits));
+    return this->place(partOf(this->Exec, fitsEnd, 1.0), context, std::move(mesh), std::move(fits));
   }
 
-  std::vector<CrossingTetrahedron<Id>> tetrahedra(const Execution& execution)
+  std::vector<CrossingTetrahedron> tetrahedra(const Execution& execution)
   {
     if (this->Tree.isEmpty())
     {
@@ -102,7 +99,7 @@ public:
   }
 
   /// The tetrahedra and facets that the surface of the body consists of.
-  BodyTetrahedra<Id> bodyTetrahedra(const Execution& execution)
+  BodyTetrahedra bodyTetrahedra(const Execution& execution)
   {
     return this->withFinder(execution,
       [this](const Execution& part, CrossingTetrahedraFinder<TSample, TRanks>& finder,
@@ -143,21 +140,20 @@ private:
     const EdgeOrder order = this->Request.regularizes ? EdgeOrder::Tree : EdgeOrder::Ids;
     if (this->Request.caps)
     {
-      const BodyTetrahedra<Id> body = this->bodyTetrahedra(partOf(execution, 0.0, gapsEnd));
+      const BodyTetrahedra body = this->bodyTetrahedra(partOf(execution, 0.0, gapsEnd));
       this->Dropped = body.droppedCount;
       return BodySurface<TSample>(partOf(execution, gapsEnd, 1.0), this->Tree, this->Values,
         this->Request.isovalue, order, body)
         .find();
     }
-    std::vector<CrossingTetrahedron<Id>> found =
+    std::vector<CrossingTetrahedron> found =
       this->tetrahedra(partOf(execution, 0.0, tetrahedraEnd));
     if (this->Request.dropsGaps)
     {
       this->dropGaps(partOf(execution, tetrahedraEnd, gapsEnd), found);
     }
-    return MarchingTetrahedra<TSample>(partOf(execution, gapsEnd, 1.0), this->Tree, this->Values,
-      this->Request.isovalue, order, found)
-      .march();
+    return marchTetrahedra(partOf(execution, gapsEnd, 1.0), this->Tree, this->Values,
+      this->Request.isovalue, order, found);
   }
 
   bool hasCreases() const
@@ -165,54 +161,71 @@ private:
     return this->Request.fit && this->Request.fit->highest == FitOrder::Crease;
   }
 
-  /// By the edges of vertices with one edge.
-  using FitsAtEdges = std::map<SampleEdge, LocalFit>;
-
-  /// Merges vertices except at creases. Needs fits at all vertices to find these.
-  /// @param kept set to the fits of vertices at creases
-  EdgeTriangles<TSample> merge(const Execution& execution, ExtractionContext<TSample>& context,
-    MarchedTriangles<TSample> marched, FitsAtEdges& kept)
+  /// Merges vertices except at creases and samples. Needs fits at all vertices to find creases, and
+  /// keeps them.
+  CrossingMesh merge(const Execution& execution, ExtractionContext<TSample>& context,
+    MarchedTriangles<TSample> marched)
   {
     constexpr double fitsEnd = 0.8; // share of the progress
+    CrossingMesh& mesh = marched.mesh;
     std::vector<char> areFixed;
     if (this->hasCreases())
     {
-      std::vector<LocalFit> fits =
-        this->fitTo(partOf(execution, 0.0, fitsEnd), context, marched, {});
-      areFixed = areAtCreases(execution, fits, marched.triangles);
-      const std::vector<std::size_t> vertices = markedOf(execution, areFixed);
-      forEachInOrder(execution, vertices.size(),
-        [&](std::size_t i)
-        { kept.emplace(marched.edges[vertices[i]], std::move(fits[vertices[i]])); });
+      const std::vector<LocalFit> fits =
+        this->fitTo(partOf(execution, 0.0, fitsEnd), context, mesh);
+      areFixed = areAtCreases(execution, fits, mesh.triangles);
+      const std::vector<std::size_t> atCreases = markedOf(execution, areFixed);
+      this->FitsAtCreases = chosenOf(execution, fits, atCreases);
+      this->AreAtCreases = areFixed;
+      this->NumberAtCreases = placesIn(execution, atCreases, fits.size());
     }
-    return withMergedVertices(partOf(execution, fitsEnd, 1.0), std::move(marched),
-      std::move(areFixed), this->Request.keepsHullSlivers);
+    else if (this->Request.caps)
+    {
+      areFixed = tabulated<char>(execution, this->Edges.size(),
+        [this](std::size_t crossing) { return this->Edges[crossing].isSample(); });
+    }
+    const Execution part = partOf(execution, fitsEnd, 1.0);
+    MergeableTriangles exact{ mesh.positions, std::move(mesh.triangles), std::move(mesh.caps),
+      std::move(marched.nearerEnds), marched.endCount, std::move(areFixed),
+      this->Request.keepsHullSlivers };
+    if (exact.caps.empty())
+    {
+      return mergeVertices(part, std::move(exact));
+    }
+    CrossingMesh merged = mergeVertices(part, exact);
+    restoreInvertedPieces(part, exact, merged);
+    return merged;
   }
 
-  /// The vertices of caps at samples stay there, without fits.
-  /// @param known fits that are reused
-  std::vector<LocalFit> fitTo(const Execution& execution, ExtractionContext<TSample>& context,
-    const EdgeTriangles<TSample>& mesh, const FitsAtEdges& known)
+  const CrossingEdge<TSample>& edgeOf(const CrossingMesh& mesh, std::size_t vertex) const
   {
-    const std::vector<CrossingEdge<TSample>> edges = mesh.firstEdges(this->Exec);
-    if (known.empty() && mesh.caps.empty())
+    return this->Edges[mesh.firstMember(vertex)];
+  }
+
+  /// Reuses the fits at creases. The vertices of caps at samples stay there, without fits.
+  std::vector<LocalFit> fitTo(
+    const Execution& execution, ExtractionContext<TSample>& context, const CrossingMesh& mesh)
+  {
+    const auto edges = tabulated<CrossingEdge<TSample>>(
+      this->Exec, mesh.size(), [&](std::size_t vertex) { return this->edgeOf(mesh, vertex); });
+    if (this->FitsAtCreases.empty() && mesh.caps.empty())
     {
       return this->Ranks.fitShared(execution, context, *this->Request.fit, edges, mesh.positions);
     }
+    const auto isKnown = [&](std::size_t vertex)
+    { return !this->FitsAtCreases.empty() && this->AreAtCreases[mesh.firstMember(vertex)] != 0; };
     std::vector<LocalFit> fits(edges.size());
-    std::vector<char> areUnknown(edges.size(), 0);
-    forEachIndex(execution, edges.size(),
+    forEachIndex(execution, fits.size(),
       [&](std::size_t vertex)
       {
         fits[vertex].position = mesh.positions[vertex];
-        const auto found = known.find(edges[vertex]);
-        if (found != known.end())
+        if (isKnown(vertex))
         {
-          fits[vertex] = found->second;
+          fits[vertex] = this->FitsAtCreases[this->NumberAtCreases[mesh.firstMember(vertex)]];
         }
-        areUnknown[vertex] = found == known.end() && !edges[vertex].isSample() ? 1 : 0;
       });
-    const std::vector<std::size_t> unknown = markedOf(execution, areUnknown);
+    const std::vector<std::size_t> unknown = itemsThat(execution, fits.size(),
+      [&](std::size_t vertex) { return !isKnown(vertex) && !edges[vertex].isSample(); });
     const std::vector<LocalFit> others =
       this->Ranks.fitShared(execution, context, *this->Request.fit,
         chosenOf(this->Exec, edges, unknown), chosenOf(this->Exec, mesh.positions, unknown));
@@ -220,7 +233,7 @@ private:
     return fits;
   }
 
-  void dropGaps(const Execution& execution, std::vector<CrossingTetrahedron<Id>>& found)
+  void dropGaps(const Execution& execution, std::vector<CrossingTetrahedron>& found)
   {
     this->Ranks.order(found);
     const std::size_t count = found.size();
@@ -234,7 +247,7 @@ private:
 
   /// Moves vertices by their fits unless a triangle turns over.
   TriangleSurface place(const Execution& execution, ExtractionContext<TSample>& context,
-    EdgeTriangles<TSample>& mesh, std::vector<LocalFit> fits)
+    CrossingMesh mesh, std::vector<LocalFit> fits)
   {
     const bool isMoved = this->Request.fit && this->Request.fit->move;
     if (isMoved && !mesh.caps.empty())
@@ -249,7 +262,9 @@ private:
     {
       keepTrianglesUpright(partOf(execution, 0.0, 0.5), mesh.positions, mesh.triangles, fits);
     }
-    const std::vector<Vector> positions = this->positionsOf(mesh, fits);
+    const std::vector<Vector> positions = tabulated<Vector>(this->Exec, mesh.size(),
+      [&](std::size_t vertex)
+      { return fits.empty() ? mesh.positions[vertex] : fits[vertex].position; });
     if (this->Request.regularizes)
     {
       const std::vector<SurfaceTriangle> before =
@@ -260,20 +275,21 @@ private:
         revertInvertingFlips(this->Exec, positions, before, mesh.triangles);
       }
     }
-    std::vector<std::size_t> order = orderOfEdges(this->Exec, mesh);
+    std::vector<std::size_t> order = orderOfEdges(this->Exec, mesh.size(),
+      [&](std::size_t vertex) -> const SampleEdge& { return this->edgeOf(mesh, vertex); });
     if (this->Request.minimumPieceSize > 0.0 && !mesh.triangles.empty())
     {
       this->dropSmallPieces(mesh, positions);
       const std::vector<char> areUsed = areVerticesOf(this->Exec, mesh.triangles, positions.size());
-      order.erase(std::remove_if(order.begin(), order.end(),
-                    [&](std::size_t vertex) { return areUsed[vertex] == 0; }),
-        order.end());
+      order =
+        chosenThat(this->Exec, order, [&](std::size_t vertex) { return areUsed[vertex] != 0; });
     }
     mesh = inOrder(this->Exec, mesh, order);
     fits = chosenOf(this->Exec, fits, order);
     TriangleSurface surface;
     surface.vertices = placeIsopoints<TSample>(partOf(execution, 0.5, 1.0), context,
-      { mesh.edges, mesh.edgeBegins, mesh.positions }, std::move(fits), isMoved);
+      { chosenOf(this->Exec, this->Edges, mesh.members), mesh.memberBegins, mesh.positions },
+      std::move(fits), isMoved);
     if (this->Request.caps)
     {
       surface.areCaps = areAmong(this->Exec, mesh.triangles, mesh.caps);
@@ -290,7 +306,7 @@ private:
 
   /// Vertices of the rim, between isosurface and caps, move along their edges only, so that caps
   /// stay where they are: to the tangent plane of the fit.
-  void keepRimOnEdges(const EdgeTriangles<TSample>& mesh, std::vector<LocalFit>& fits) const
+  void keepRimOnEdges(const CrossingMesh& mesh, std::vector<LocalFit>& fits) const
   {
     const std::vector<char> areOfCaps = areVerticesOf(this->Exec, mesh.caps, fits.size());
     forEachIndex(this->Exec, fits.size(),
@@ -301,7 +317,7 @@ private:
         {
           return;
         }
-        const CrossingEdge<TSample>& edge = mesh.edges[mesh.edgeBegin(vertex)];
+        const CrossingEdge<TSample>& edge = this->edgeOf(mesh, vertex);
         const Vector first = positionOf(this->Tree.sampleOf(edge.firstLeaf));
         const Vector second = positionOf(this->Tree.sampleOf(edge.secondLeaf));
         const Vector rising = directionOf(fit.gradient);
@@ -315,17 +331,8 @@ private:
       });
   }
 
-  std::vector<Vector> positionsOf(
-    const EdgeTriangles<TSample>& mesh, const std::vector<LocalFit>& fits) const
-  {
-    std::vector<Vector> positions = mesh.positions;
-    forEachIndex(this->Exec, fits.size(),
-      [&](std::size_t vertex) { positions[vertex] = fits[vertex].position; });
-    return positions;
-  }
-
   /// Leaves vertices without triangles.
-  void dropSmallPieces(EdgeTriangles<TSample>& mesh, const std::vector<Vector>& positions) const
+  void dropSmallPieces(CrossingMesh& mesh, const std::vector<Vector>& positions) const
   {
     const std::vector<char> areSmall = areOfSmallPieces(
       this->Exec, positions, mesh.triangles, this->Request.minimumPieceSize, this->Request.caps);
@@ -336,7 +343,7 @@ private:
     dropMarked(this->Exec, areSmall, mesh.triangles);
   }
 
-  void flipEdgesOf(EdgeTriangles<TSample>& mesh, const std::vector<Vector>& positions,
+  void flipEdgesOf(CrossingMesh& mesh, const std::vector<Vector>& positions,
     const std::vector<LocalFit>& fits) const
   {
     const std::vector<char> areFixed = this->hasCreases()
@@ -352,6 +359,11 @@ private:
   std::unique_ptr<KeptTetrahedra>& Kept;
   const IsosurfaceRequest& Request;
   LeafValues<TSample> Values;
+  // By crossing; the last two only once fits have found creases.
+  std::vector<CrossingEdge<TSample>> Edges;
+  std::vector<char> AreAtCreases;
+  std::vector<std::size_t> NumberAtCreases; // of these
+  std::vector<LocalFit> FitsAtCreases;      // by that number
   TetrahedraCounts Counts;
   std::size_t Dropped = 0;
 };

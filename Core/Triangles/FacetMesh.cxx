@@ -9,19 +9,6 @@
 
 namespace isopoint
 {
-namespace
-{
-
-template <class T, class Part>
-std::vector<T> partsOf(
-  const Execution& execution, const std::vector<Facet>& facets, const Part& part)
-{
-  std::vector<T> parts(facets.size());
-  forEachIndex(execution, facets.size(), [&](std::size_t i) { parts[i] = part(facets[i]); });
-  return parts;
-}
-
-} // namespace
 
 FacetMesh::FacetMesh(const Execution& execution, const std::vector<Vector>& positions,
   const std::vector<bool>& isInner, const std::vector<Facet>& facets)
@@ -29,21 +16,17 @@ FacetMesh::FacetMesh(const Execution& execution, const std::vector<Vector>& posi
   , Positions(positions)
   , IsInner(isInner)
   , Mesh(execution,
-      partsOf<SurfaceTriangle>(execution, facets, [](const Facet& facet) { return facet.corners; }),
+      tabulated<SurfaceTriangle>(
+        execution, facets.size(), [&](std::size_t i) { return facets[i].corners; }),
       positions.size())
-  , Normals(partsOf<Vector>(execution, facets, [](const Facet& facet) { return facet.normal; }))
+  , Normals(
+      tabulated<Vector>(execution, facets.size(), [&](std::size_t i) { return facets[i].normal; }))
 {
-}
-
-Vector FacetMesh::areaNormal(const SurfaceTriangle& triangle) const
-{
-  const auto& [a, b, c] = triangle;
-  return cross(this->Positions[b] - this->Positions[a], this->Positions[c] - this->Positions[a]);
 }
 
 double FacetMesh::signedArea(const Facet& facet) const
 {
-  return dot(facet.normal, this->areaNormal(facet.corners));
+  return dot(facet.normal, areaNormal(this->Positions, facet.corners));
 }
 
 double FacetMesh::invertedArea(
@@ -157,9 +140,8 @@ std::vector<Facet> FacetMesh::facets() const
 {
   const std::vector<std::size_t> left = itemsThat(
     this->Exec, this->Normals.size(), [this](std::size_t i) { return !this->Mesh.isRemoved(i); });
-  std::vector<Facet> facets(left.size());
-  forEachIndex(this->Exec, left.size(), [&](std::size_t i) { facets[i] = this->facet(left[i]); });
-  return facets;
+  return tabulated<Facet>(
+    this->Exec, left.size(), [&](std::size_t i) { return this->facet(left[i]); });
 }
 
 } // namespace isopoint

@@ -77,9 +77,6 @@ public:
     return !this->Mesh.isRemoved(index) && this->signedArea(this->facet(index)) < 0.0;
   }
 
-  /// The normal of a triangle, as long as twice its area.
-  Vector areaNormal(const SurfaceTriangle& triangle) const;
-
   /// Twice the area of a facet, negative if it is inverted.
   double signedArea(const Facet& facet) const;
 

@@ -4,7 +4,6 @@
 #include "Core/Base/Lists.h"
 
 #include <algorithm>
-#include <array>
 
 namespace isopoint
 {
@@ -167,12 +166,14 @@ std::vector<std::size_t> SurfaceMesh::neighborsOf(std::size_t vertex) const
   return neighbors;
 }
 
-void SurfaceMesh::place(std::size_t triangle, const SurfaceTriangle& corners)
+void SurfaceMesh::place(
+  std::size_t triangle, const SurfaceTriangle& corners, const std::array<HalfEdge, 3>& twins)
 {
   this->Triangles[triangle] = corners;
   for (std::size_t corner = 0; corner < 3; ++corner)
   {
     this->Outgoing.add(corners[corner], 3 * triangle + corner);
+    this->setTwins(3 * triangle + corner, twins[corner]);
   }
 }
 
@@ -200,13 +201,8 @@ void SurfaceMesh::flip(HalfEdge side)
   const HalfEdge second = twin / 3 * 3;
   this->remove(first / 3);
   this->remove(second / 3);
-  this->place(first / 3, { c, a, d });
-  this->place(second / 3, { d, b, c });
-  this->setTwins(first, ca);
-  this->setTwins(first + 1, ad);
-  this->setTwins(second, db);
-  this->setTwins(second + 1, bc);
-  this->setTwins(first + 2, second + 2);
+  this->place(first / 3, { c, a, d }, { ca, ad, second + 2 });
+  this->place(second / 3, { d, b, c }, { db, bc, first + 2 });
 }
 
 void SurfaceMesh::turn(std::size_t triangle)
@@ -216,11 +212,7 @@ void SurfaceMesh::turn(std::size_t triangle)
   const std::array<HalfEdge, 3> twins{ this->Twins[first + 1], this->Twins[first + 2],
     this->Twins[first] };
   this->remove(triangle);
-  this->place(triangle, { b, c, a });
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    this->setTwins(first + i, twins[i]);
-  }
+  this->place(triangle, { b, c, a }, twins);
 }
 
 void SurfaceMesh::collapse(HalfEdge side)

@@ -5,6 +5,7 @@
 #include "Core/Base/RawArray.h"
 #include "Core/Triangles/SurfaceTriangle.h"
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -101,6 +102,12 @@ public:
   /// The side of the other triangle at an edge of exactly two, else noHalfEdge.
   HalfEdge twinOf(HalfEdge side) const { return this->Twins[side]; }
 
+  /// Whether a side stands for its edge: one of two twins, or a side without.
+  bool isFirst(HalfEdge side) const
+  {
+    return this->Twins[side] == noHalfEdge || side < this->Twins[side];
+  }
+
   /// A side from one vertex to another, or noHalfEdge.
   HalfEdge halfEdgeBetween(std::size_t start, std::size_t end) const;
 
@@ -138,7 +145,8 @@ public:
 private:
   void findTwins(const Execution& execution);
   void setTwins(HalfEdge side, HalfEdge twin);
-  void place(std::size_t triangle, const SurfaceTriangle& corners);
+  void place(
+    std::size_t triangle, const SurfaceTriangle& corners, const std::array<HalfEdge, 3>& twins);
   void remove(std::size_t triangle);
 
   std::vector<SurfaceTriangle> Triangles;

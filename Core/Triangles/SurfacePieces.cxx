@@ -33,17 +33,14 @@ public:
     : Exec(execution)
     , Positions(positions)
     , Triangles(triangles)
-    , Pieces(execution, triangles, positions.size())
+    , Pieces(piecesOf(execution, triangles, positions.size()))
     , Areas(positions.size(), 0.0)
-    , AreSmall(positions.size(), 0)
   {
     forEachInOrder(execution, triangles.size(),
       [this](std::size_t i)
       {
-        const auto& [a, b, c] = this->Triangles[i];
-        this->Areas[this->Pieces.pieceOf[a]] +=
-          0.5 * lengthOf(cross(this->Positions[b] - this->Positions[a],
-                  this->Positions[c] - this->Positions[a]));
+        this->Areas[this->pieceAt(i)] +=
+          0.5 * lengthOf(areaNormal(this->Positions, this->Triangles[i]));
       });
   }
 
@@ -55,25 +52,19 @@ public:
     {
       volumes = volumesOf(this->Exec, this->Pieces, this->Positions, this->Triangles);
     }
-    forEachIndex(this->Exec, this->AreSmall.size(),
-      [&](std::size_t piece) {
-        this->AreSmall[piece] =
-          this->Areas[piece] < share * largest && volumes[piece] >= 0.0 ? 1 : 0;
-      });
-    std::vector<char> areBubbles(volumes.size(), 0);
-    forEachIndex(this->Exec, volumes.size(),
-      [&](std::size_t piece) { areBubbles[piece] = volumes[piece] < 0.0 ? 1 : 0; });
-    this->addBubbles(markedOf(this->Exec, areBubbles));
-    std::vector<char> marks(this->Triangles.size());
-    forEachIndex(this->Exec, marks.size(),
-      [&](std::size_t i) { marks[i] = this->AreSmall[this->pieceAt(i)]; });
-    return marks;
+    this->AreSmall = tabulated<char>(this->Exec, this->Areas.size(),
+      [&](std::size_t piece)
+      { return this->Areas[piece] < share * largest && volumes[piece] >= 0.0; });
+    this->addBubbles(itemsThat(
+      this->Exec, volumes.size(), [&](std::size_t piece) { return volumes[piece] < 0.0; }));
+    return tabulated<char>(this->Exec, this->Triangles.size(),
+      [this](std::size_t i) { return this->AreSmall[this->pieceAt(i)]; });
   }
 
 private:
   std::size_t pieceAt(std::size_t triangle) const
   {
-    return this->Pieces.pieceOf[this->Triangles[triangle][0]];
+    return this->Pieces[this->Triangles[triangle][0]];
   }
 
   /// Adds the bubbles within small pieces.
@@ -119,16 +110,15 @@ private:
   const Execution& Exec;
   const std::vector<Vector>& Positions;
   const std::vector<SurfaceTriangle>& Triangles;
-  SurfacePieces Pieces;
+  const std::vector<std::size_t> Pieces;
   std::vector<double> Areas;  // by piece
   std::vector<char> AreSmall; // likewise
 };
 
 } // namespace
 
-SurfacePieces::SurfacePieces(const Execution& execution,
+std::vector<std::size_t> piecesOf(const Execution& execution,
   const std::vector<SurfaceTriangle>& triangles, std::size_t vertexCount)
-  : pieceOf(vertexCount)
 {
   ConnectedVertices connected(execution, vertexCount);
   forEachIndex(execution, triangles.size(),
@@ -137,23 +127,20 @@ SurfacePieces::SurfacePieces(const Execution& execution,
       connected.unite(triangles[i][0], triangles[i][1]);
       connected.unite(triangles[i][0], triangles[i][2]);
     });
-  forEachIndex(execution, vertexCount,
-    [&](std::size_t vertex) { this->pieceOf[vertex] = connected.rootOf(vertex); });
+  return connected.roots(execution);
 }
 
-std::vector<double> volumesOf(const Execution& execution, const SurfacePieces& pieces,
+std::vector<double> volumesOf(const Execution& execution, const std::vector<std::size_t>& pieces,
   const std::vector<Vector>& positions, const std::vector<SurfaceTriangle>& triangles)
 {
   std::vector<double> volumes(positions.size(), 0.0);
   forEachInOrder(execution, triangles.size(),
     [&](std::size_t i)
     {
-      const auto& [a, b, c] = triangles[i];
-      const std::size_t piece = pieces.pieceOf[a];
-      const Vector& origin = positions[piece]; // near, so that no digits are lost
-      volumes[piece] += dot(positions[a] - origin,
-                          cross(positions[b] - positions[a], positions[c] - positions[a])) /
-                        6.0;
+      const std::size_t first = triangles[i][0];
+      const Vector& origin = positions[pieces[first]]; // near, so that no digits are lost
+      volumes[pieces[first]] +=
+        dot(positions[first] - origin, areaNormal(positions, triangles[i])) / 6.0;
     });
   return volumes;
 }

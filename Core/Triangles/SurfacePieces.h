@@ -11,19 +11,15 @@
 namespace isopoint
 {
 
-/// The connected components of a surface, its *pieces*. Each is named by its lowest vertex.
-struct SurfacePieces
-{
-  /// O(vertices + triangles), mostly @throws std::bad_alloc, Aborted
-  SurfacePieces(const Execution& execution, const std::vector<SurfaceTriangle>& triangles,
-    std::size_t vertexCount);
-
-  std::vector<std::size_t> pieceOf; // by vertex
-};
+/// The connected components of a surface, its *pieces*, by vertex. Each is named by its lowest
+/// vertex. O(vertices + triangles), mostly @throws std::bad_alloc, Aborted
+std::vector<std::size_t> piecesOf(const Execution& execution,
+  const std::vector<SurfaceTriangle>& triangles, std::size_t vertexCount);
 
 /// The volumes within closed pieces, positive if their normals point outwards. By piece, 0 for
 /// other vertices. @throws std::bad_alloc, Aborted
-std::vector<double> volumesOf(const Execution& execution, const SurfacePieces& pieces,
+/// @param pieces piecesOf()
+std::vector<double> volumesOf(const Execution& execution, const std::vector<std::size_t>& pieces,
   const std::vector<Vector>& positions, const std::vector<SurfaceTriangle>& triangles);
 
 /// Marks the triangles of small pieces. In bodies, which are closed, bubbles, with a negative

@@ -6,35 +6,14 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
-#include <utility>
 
 namespace isopoint
 {
 
-namespace
-{
-
-std::vector<std::atomic<bool>> marksOfVertices(const Execution& execution,
-  const std::vector<SurfaceTriangle>& triangles, std::size_t vertexCount)
-{
-  std::vector<std::atomic<bool>> marks(vertexCount);
-  forEachIndex(execution, triangles.size(),
-    [&](std::size_t i)
-    {
-      for (const std::size_t vertex : triangles[i])
-      {
-        marks[vertex].store(true, std::memory_order_relaxed);
-      }
-    });
-  return marks;
-}
-
-} // namespace
-
 std::vector<std::size_t> verticesOf(const Execution& execution,
   const std::vector<SurfaceTriangle>& triangles, std::size_t vertexCount)
 {
-  return markedOf(execution, marksOfVertices(execution, triangles, vertexCount));
+  return markedOf(execution, areVerticesOf(execution, triangles, vertexCount));
 }
 
 std::vector<SurfaceTriangle> ordered(
@@ -53,38 +32,42 @@ std::vector<SurfaceTriangle> ordered(
 std::vector<char> areVerticesOf(const Execution& execution,
   const std::vector<SurfaceTriangle>& triangles, std::size_t vertexCount)
 {
-  const std::vector<std::atomic<bool>> marks = marksOfVertices(execution, triangles, vertexCount);
+  std::vector<std::atomic<bool>> marks(vertexCount);
+  forEachIndex(execution, triangles.size(),
+    [&](std::size_t i)
+    {
+      for (const std::size_t vertex : triangles[i])
+      {
+        marks[vertex].store(true, std::memory_order_relaxed);
+      }
+    });
   return { marks.begin(), marks.end() };
 }
 
 std::vector<char> areAmong(const Execution& execution,
   const std::vector<SurfaceTriangle>& triangles, const std::vector<SurfaceTriangle>& some)
 {
-  std::vector<char> marks(triangles.size(), 0);
-  forEachIndex(execution, marks.size(),
-    [&](std::size_t i)
-    { marks[i] = std::binary_search(some.begin(), some.end(), triangles[i]) ? 1 : 0; });
-  return marks;
+  return tabulated<char>(execution, triangles.size(),
+    [&](std::size_t i) { return std::binary_search(some.begin(), some.end(), triangles[i]); });
 }
 
 std::vector<SurfaceTriangle> renumbered(const Execution& execution,
-  const std::vector<SurfaceTriangle>& triangles, const std::vector<std::size_t>& order,
-  std::size_t vertexCount)
+  const std::vector<SurfaceTriangle>& triangles, const std::vector<std::size_t>& numbers,
+  std::size_t count)
 {
-  if (triangles.empty())
-  {
-    return {};
-  }
-  std::vector<std::size_t> number(vertexCount);
-  forEachIndex(execution, order.size(), [&](std::size_t place) { number[order[place]] = place; });
-  std::vector<SurfaceTriangle> result(triangles.size());
-  forEachIndex(execution, triangles.size(),
-    [&](std::size_t i)
-    {
-      const auto& [a, b, c] = triangles[i];
-      result[i] = { number[a], number[b], number[c] };
-    });
-  return ordered(execution, std::move(result), order.size());
+  return ordered(execution,
+    collectedFromEach<SurfaceTriangle>(execution, triangles.size(),
+      [&](std::size_t i, std::vector<SurfaceTriangle>& found)
+      {
+        const std::size_t a = numbers[triangles[i][0]];
+        const std::size_t b = numbers[triangles[i][1]];
+        const std::size_t c = numbers[triangles[i][2]];
+        if (a != b && b != c && c != a)
+        {
+          found.push_back({ a, b, c });
+        }
+      }),
+    count);
 }
 
 } // namespace isopoint

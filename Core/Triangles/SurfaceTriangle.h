@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Core/Base/Execution.h"
+#include "Core/Base/Vector.h"
 
 #include <array>
 #include <cstddef>
@@ -35,12 +36,19 @@ std::vector<char> areAmong(const Execution& execution,
 std::vector<SurfaceTriangle> ordered(
   const Execution& execution, std::vector<SurfaceTriangle> triangles, std::size_t vertexCount);
 
-/// The triangles with vertices numbered by their places in an order; ordered().
-/// @param order of all their vertices
-/// @param vertexCount exceeds every vertex
+/// The triangles with other numbers of their vertices, without those of which two become one;
+/// ordered().
+/// @param numbers of all vertices, below count
 /// @throws std::bad_alloc, Aborted
 std::vector<SurfaceTriangle> renumbered(const Execution& execution,
-  const std::vector<SurfaceTriangle>& triangles, const std::vector<std::size_t>& order,
-  std::size_t vertexCount);
+  const std::vector<SurfaceTriangle>& triangles, const std::vector<std::size_t>& numbers,
+  std::size_t count);
+
+/// The normal of a triangle, as long as twice its area.
+inline Vector areaNormal(const std::vector<Vector>& positions, const SurfaceTriangle& triangle)
+{
+  const auto& [a, b, c] = triangle;
+  return cross(positions[b] - positions[a], positions[c] - positions[a]);
+}
 
 } // namespace isopoint

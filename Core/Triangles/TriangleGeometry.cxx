@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
-#include <numeric>
 
 namespace isopoint
 {
@@ -40,13 +38,12 @@ void takeBackFarMoves(const Execution& execution, const std::vector<Vector>& unm
   std::vector<LocalFit>& fits)
 {
   constexpr double maxReach = 2.0; // in longest edges
-  std::vector<double> longest(triangles.size());
-  forEachIndex(execution, triangles.size(),
+  const std::vector<double> longest = tabulated<double>(execution, triangles.size(),
     [&](std::size_t i)
     {
       const auto& [a, b, c] = triangles[i];
-      longest[i] = std::max({ 0.0, lengthOf(unmoved[b] - unmoved[a]),
-        lengthOf(unmoved[c] - unmoved[b]), lengthOf(unmoved[a] - unmoved[c]) });
+      return std::max({ 0.0, lengthOf(unmoved[b] - unmoved[a]), lengthOf(unmoved[c] - unmoved[b]),
+        lengthOf(unmoved[a] - unmoved[c]) });
     });
   forEachIndex(execution, fits.size(),
     [&](std::size_t vertex)
@@ -98,20 +95,12 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
     return dot(before, falling) > 0.0 && !(dot(after, falling) > 0.0);
   };
   // All triangles at first, then the changed ones.
-  std::vector<std::size_t> suspects(triangles.size());
-  std::iota(suspects.begin(), suspects.end(), std::size_t{ 0 });
+  std::vector<std::size_t> suspects = numbersBelow(triangles.size());
   while (!suspects.empty())
   {
-    constexpr std::size_t grain = 8192;
-    const std::vector<std::size_t> turned = collected<std::size_t>(
-      execution, { suspects.size(), 8 * grain, grain },
-      [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
-      {
-        std::copy_if(suspects.begin() + static_cast<std::ptrdiff_t>(begin),
-          suspects.begin() + static_cast<std::ptrdiff_t>(end), std::back_inserter(found),
-          [&](std::size_t triangle) { return isTurned(triangles[triangle]); });
-      },
-      execution.progress);
+    const std::vector<std::size_t> turned = chosenThat(
+      execution, suspects, [&](std::size_t triangle) { return isTurned(triangles[triangle]); });
+    execution.progress(1.0);
     suspects.clear();
     forEachInOrder(execution, turned.size(),
       [&](std::size_t i)

@@ -2,7 +2,6 @@
 #include "Core/Triangles/VertexMerging.h"
 
 #include "Core/Base/Lists.h"
-#include "Core/Extraction/Isosurface.h"
 #include "Core/Triangles/CapRim.h"
 #include "Core/Triangles/EdgeFlipping.h"
 #include "Core/Triangles/ShortEdges.h"
@@ -12,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <numeric>
 #include <utility>
 
 namespace isopoint
@@ -169,13 +167,11 @@ public:
     this->AreFixed.resize(count, 0);
     this->Result.triangles = std::move(triangles.triangles);
     this->Result.caps = std::move(triangles.caps);
-    this->Result.members.resize(count);
-    std::iota(this->Result.members.begin(), this->Result.members.end(), std::size_t{ 0 });
-    this->Result.memberBegins.resize(count + 1);
-    std::iota(this->Result.memberBegins.begin(), this->Result.memberBegins.end(), std::size_t{ 0 });
+    this->Result.members = numbersBelow(count);
+    this->Result.memberBegins = numbersBelow(count + 1);
   }
 
-  MergedTriangles merge()
+  CrossingMesh merge()
   {
     this->mergeAtEnds();
     this->Exec.progress(0.7);
@@ -232,46 +228,34 @@ private:
   {
     const CapRim rim(this->Exec, mesh, this->Result.caps, former);
     const PartPlaces places(mesh, rim, parts, former, this->Result.memberBegins);
-    std::vector<char> areMerged(parts.size());
-    forEachIndex(this->Exec, parts.size(),
-      [&](std::size_t part) { areMerged[part] = rim.isMergeable(parts, part) ? 1 : 0; });
+    std::vector<char> areMerged = tabulated<char>(
+      this->Exec, parts.size(), [&](std::size_t part) { return rim.isMergeable(parts, part); });
     do
     {
       areMerged = contractibleParts(this->Exec, mesh, parts, std::move(areMerged));
     } while ((this->KeepsRim || this->HasCaps) &&
              this->separateTurned(mesh, parts, rim, places, former, areMerged));
-    const auto isMerged = [&](std::size_t vertex)
-    { return parts.partOf[vertex] != VertexParts::none && areMerged[parts.partOf[vertex]]; };
-    // The lowest vertex of each merged part, and all others.
-    const std::vector<std::size_t> roots = itemsThat(this->Exec, this->count(),
-      [&](std::size_t vertex)
-      { return !isMerged(vertex) || parts.verticesOf(parts.partOf[vertex])[0] == vertex; });
-    // The vertices that become one, and those of them that determine its place.
-    const auto mergedAt = [&](std::size_t i) -> IndexSpan<std::size_t>
+    const auto isMerged = [&](std::size_t vertex) { return parts.isMarked(vertex, areMerged); };
+    const auto rootOf = [&](std::size_t vertex) { return parts.rootOf(vertex, areMerged); };
+    const std::vector<std::size_t> roots = itemsThat(
+      this->Exec, this->count(), [&](std::size_t vertex) { return rootOf(vertex) == vertex; });
+    // The vertices that determine the place of a new one.
+    const auto placingAt = [&](std::size_t i, std::vector<std::size_t>& memory)
     {
-      return isMerged(roots[i]) ? parts.verticesOf(parts.partOf[roots[i]])
+      return isMerged(roots[i]) ? places.membersOf(parts.partOf[roots[i]], memory)
                                 : IndexSpan<std::size_t>{ &roots[i], 1 };
     };
-    const auto placingAt = [&](std::size_t i, std::vector<std::size_t>& memory)
-    { return isMerged(roots[i]) ? places.membersOf(parts.partOf[roots[i]], memory) : mergedAt(i); };
-    std::vector<std::size_t> number(this->count());
-    forEachIndex(this->Exec, roots.size(),
-      [&](std::size_t i)
-      {
-        for (const std::size_t vertex : mergedAt(i))
-        {
-          number[vertex] = i;
-        }
-      });
-    this->Result.triangles = this->renumberedTriangles(mesh.triangles(), number, roots.size());
-    this->Result.caps = this->renumberedTriangles(this->Result.caps, number, roots.size());
+    const std::vector<std::size_t> numbers = placesIn(this->Exec, roots, this->count());
+    const std::vector<std::size_t> number = tabulated<std::size_t>(
+      this->Exec, this->count(), [&](std::size_t vertex) { return numbers[rootOf(vertex)]; });
+    this->Result.triangles = renumbered(this->Exec, mesh.triangles(), number, roots.size());
+    this->Result.caps = renumbered(this->Exec, this->Result.caps, number, roots.size());
     this->AreFixed = chosenOf(this->Exec, this->AreFixed, roots);
-    std::vector<Vector> positions(roots.size());
-    forEachIndex(this->Exec, roots.size(),
+    std::vector<Vector> positions = tabulated<Vector>(this->Exec, roots.size(),
       [&](std::size_t i)
       {
         std::vector<std::size_t> memory;
-        positions[i] = isMerged(roots[i]) ? places.meanOf(placingAt(i, memory)) : former[roots[i]];
+        return isMerged(roots[i]) ? places.meanOf(placingAt(i, memory)) : former[roots[i]];
       });
     this->keepMembers(roots.size(), placingAt);
     this->Result.positions = std::move(positions);
@@ -283,12 +267,11 @@ private:
   bool separateTurned(const SurfaceMesh& mesh, const VertexParts& parts, const CapRim& rim,
     const PartPlaces& places, const std::vector<Vector>& former, std::vector<char>& areMerged) const
   {
-    std::vector<Vector> means(parts.parts.size());
-    forEachIndex(this->Exec, means.size(),
+    const std::vector<Vector> means = tabulated<Vector>(this->Exec, parts.size(),
       [&](std::size_t part)
       {
         std::vector<std::size_t> memory;
-        means[part] = places.meanOf(places.membersOf(part, memory));
+        return places.meanOf(places.membersOf(part, memory));
       });
     const auto isTurned = [&](std::size_t triangle)
     {
@@ -302,11 +285,9 @@ private:
       for (std::size_t i = 0; i < 3; ++i)
       {
         const std::size_t vertex = mesh.triangles()[triangle][i];
-        const std::size_t part = parts.partOf[vertex];
-        const bool isMerged = part != VertexParts::none && areMerged[part] != 0;
-        roots[i] = isMerged ? parts.verticesOf(part)[0] : vertex;
+        roots[i] = parts.rootOf(vertex, areMerged);
         before[i] = former[vertex];
-        after[i] = isMerged ? means[part] : before[i];
+        after[i] = parts.isMarked(vertex, areMerged) ? means[parts.partOf[vertex]] : before[i];
       }
       const bool vanishes = roots[0] == roots[1] || roots[1] == roots[2] || roots[2] == roots[0];
       return !vanishes && dot(cross(before[1] - before[0], before[2] - before[0]),
@@ -327,8 +308,7 @@ private:
         for (const std::size_t vertex : mesh.triangles()[triangle])
         {
           const std::size_t part = parts.partOf[vertex];
-          if (part != VertexParts::none && areMerged[part] != 0 &&
-              lengthOf(means[part] - former[vertex]) > most)
+          if (parts.isMarked(vertex, areMerged) && lengthOf(means[part] - former[vertex]) > most)
           {
             most = lengthOf(means[part] - former[vertex]);
             farthest = part;
@@ -340,29 +320,6 @@ private:
         }
       }
     }
-  }
-
-  /// The triangles whose corners stay different.
-  std::vector<SurfaceTriangle> renumberedTriangles(const std::vector<SurfaceTriangle>& triangles,
-    const std::vector<std::size_t>& number, std::size_t count) const
-  {
-    constexpr std::size_t grain = 4096;
-    return ordered(this->Exec,
-      collected<SurfaceTriangle>(this->Exec, { triangles.size(), 4 * grain, grain },
-        [&](std::size_t begin, std::size_t end, std::vector<SurfaceTriangle>& found)
-        {
-          found.reserve(end - begin);
-          for (std::size_t i = begin; i < end; ++i)
-          {
-            const auto& [a, b, c] = triangles[i];
-            const SurfaceTriangle moved{ number[a], number[b], number[c] };
-            if (moved[0] != moved[1] && moved[1] != moved[2] && moved[2] != moved[0])
-            {
-              found.push_back(moved);
-            }
-          }
-        }),
-      count);
   }
 
   /// @param placingAt(i, memory) the former vertices that determine the place of a new one
@@ -415,18 +372,14 @@ private:
         }
       });
     const std::vector<std::size_t> firsts = markedOf(this->Exec, seconds);
-    VertexParts pairs;
-    pairs.vertices.resize(2 * firsts.size());
-    pairs.parts.resize(firsts.size());
-    forEachIndex(this->Exec, firsts.size(),
-      [&](std::size_t i)
-      {
-        pairs.vertices[2 * i] = firsts[i];
-        pairs.vertices[2 * i + 1] = seconds[firsts[i]];
-        pairs.parts[i] = { 2 * i, 2 * i + 2 };
-      });
-    pairs.number(this->Exec, this->count());
-    return pairs;
+    return { this->Exec,
+      tabulated<std::size_t>(this->Exec, 2 * firsts.size(),
+        [&](std::size_t i) { return i % 2 == 0 ? firsts[i / 2] : seconds[firsts[i / 2]]; }),
+      tabulated<VertexParts::Part>(this->Exec, firsts.size(),
+        [](std::size_t i) -> VertexParts::Part {
+          return { 2 * i, 2 * i + 2 };
+        }),
+      this->count() };
   }
 
   void putNearestFirst(std::size_t vertex)
@@ -449,14 +402,28 @@ private:
   std::vector<std::size_t> NearerEnds; // until they are merged
   const std::size_t EndCount;
   std::vector<char> AreFixed; // each of these
-  MergedTriangles Result;     // of these vertices
+  CrossingMesh Result;        // of these vertices
 };
 
 } // namespace
 
-MergedTriangles mergeVertices(const Execution& execution, MergeableTriangles triangles)
+CrossingMesh mergeVertices(const Execution& execution, MergeableTriangles triangles)
 {
   return VertexMerger(execution, std::move(triangles)).merge();
+}
+
+CrossingMesh inOrder(
+  const Execution& execution, const CrossingMesh& mesh, const std::vector<std::size_t>& order)
+{
+  CrossingMesh result;
+  std::vector<std::size_t> members;
+  result.memberBegins = chosenLists(execution, mesh.memberBegins, order, members);
+  result.members = chosenOf(execution, mesh.members, mesh.memberBegins.empty() ? order : members);
+  result.positions = chosenOf(execution, mesh.positions, order);
+  const std::vector<std::size_t> places = placesIn(execution, order, mesh.size());
+  result.triangles = renumbered(execution, mesh.triangles, places, order.size());
+  result.caps = renumbered(execution, mesh.caps, places, order.size());
+  return result;
 }
 
 } // namespace isopoint

@@ -23,17 +23,22 @@ struct MergeableTriangles
   bool keepsRim = false;               // whether vertices of edges with one triangle stay, too
 };
 
-/// Triangles between means of crossings.
-struct MergedTriangles
+/// Triangles between crossings of edges, or means of crossings.
+struct CrossingMesh
 {
   std::vector<Vector> positions;
   std::vector<SurfaceTriangle> triangles; // ordered
   std::vector<SurfaceTriangle> caps;      // those of caps; ordered
   /// The crossings whose mean each vertex is, nearest first, one list after the other.
   std::vector<std::size_t> members;
-  std::vector<std::size_t> memberBegins; // by vertex, with an end
+  std::vector<std::size_t> memberBegins; // by vertex, with an end; empty if each is one crossing
 
   std::size_t size() const { return this->positions.size(); }
+
+  std::size_t firstMember(std::size_t vertex) const
+  {
+    return this->members[this->memberBegins.empty() ? vertex : this->memberBegins[vertex]];
+  }
 };
 
 /// Merges crossings to about one vertex per sample next to the surface ([TPG99]), and then short
@@ -42,6 +47,10 @@ struct MergedTriangles
 /// vertices and triangles.
 /// Complexity: O(n log n)
 /// @throws std::bad_alloc, Aborted
-MergedTriangles mergeVertices(const Execution& execution, MergeableTriangles triangles);
+CrossingMesh mergeVertices(const Execution& execution, MergeableTriangles triangles);
+
+/// Reorders the vertices, or leaves out those without triangles. @throws std::bad_alloc, Aborted
+CrossingMesh inOrder(
+  const Execution& execution, const CrossingMesh& mesh, const std::vector<std::size_t>& order);
 
 } // namespace isopoint

@@ -104,18 +104,14 @@ bool isContradicted(const std::vector<Vector>& positions,
 std::vector<Vector> areaNormals(const Execution& execution, const std::vector<Vector>& positions,
   const std::vector<SurfaceTriangle>& triangles, const OutgoingHalfEdges& outgoing)
 {
-  std::vector<Vector> sums(positions.size());
-  forEachIndex(execution, sums.size(),
+  return tabulated<Vector>(execution, positions.size(),
     [&](std::size_t vertex)
     {
-      outgoing.forEachAt(vertex,
-        [&](HalfEdge side)
-        {
-          const auto& [a, b, c] = triangles[side / 3];
-          sums[vertex] += cross(positions[b] - positions[a], positions[c] - positions[a]);
-        });
+      Vector sum{};
+      outgoing.forEachAt(
+        vertex, [&](HalfEdge side) { sum += areaNormal(positions, triangles[side / 3]); });
+      return sum;
     });
-  return sums;
 }
 
 std::vector<Vector> vertexNormals(const Execution& execution, const SurfacePoints& points,

@@ -22,8 +22,7 @@ ConnectedVertices connectedWithin(
   forEachIndex(execution, 3 * mesh.triangles().size(),
     [&](HalfEdge side)
     {
-      const bool isFirst = mesh.twinOf(side) == noHalfEdge || side < mesh.twinOf(side);
-      if (isFirst && groups[mesh.startOf(side)] == groups[mesh.endOf(side)])
+      if (mesh.isFirst(side) && groups[mesh.startOf(side)] == groups[mesh.endOf(side)])
       {
         connected.unite(mesh.startOf(side), mesh.endOf(side));
       }
@@ -128,29 +127,18 @@ private:
   std::vector<std::size_t> lowestAmongNeighbors(const std::vector<std::size_t>& failed) const
   {
     const auto keyOf = [](std::size_t part) { return std::pair(mixBits(part + 1), part); };
-    std::vector<std::size_t> first = itemsThat(this->Exec, failed.size(),
-      [&](std::size_t i)
+    return chosenThat(this->Exec, failed,
+      [&](std::size_t part)
       {
         bool isFirst = true;
-        this->forPartsAround(failed[i],
+        this->forPartsAround(part,
           [&](std::size_t other)
           {
             isFirst = isFirst && (!std::binary_search(failed.begin(), failed.end(), other) ||
-                                   keyOf(failed[i]) < keyOf(other));
+                                   keyOf(part) < keyOf(other));
           });
         return isFirst;
       });
-    std::transform(
-      first.begin(), first.end(), first.begin(), [&](std::size_t i) { return failed[i]; });
-    return first;
-  }
-
-  /// A number that the vertices of a merged part share.
-  std::size_t mergedOf(std::size_t vertex) const
-  {
-    const std::size_t part = this->Parts.partOf[vertex];
-    return part != VertexParts::none && this->AreMerged[part] ? this->Mesh.vertexCount() + part
-                                                              : vertex;
   }
 
   /// Whether the triangles around a merged part form a (half) disk, without a gap or a loop where
@@ -178,7 +166,7 @@ private:
     ring.clear();
     const auto meet = [&](std::size_t vertex)
     {
-      const std::size_t merged = this->mergedOf(vertex);
+      const std::size_t merged = this->Parts.rootOf(vertex, this->AreMerged);
       if (ring.empty() || ring.back() != merged)
       {
         ring.push_back(merged);
@@ -216,9 +204,12 @@ private:
 
 } // namespace
 
-void VertexParts::number(const Execution& execution, std::size_t vertexCount)
+VertexParts::VertexParts(const Execution& execution, std::vector<std::size_t> allVertices,
+  std::vector<Part> allParts, std::size_t vertexCount)
+  : vertices(std::move(allVertices))
+  , parts(std::move(allParts))
+  , partOf(vertexCount, none)
 {
-  this->partOf.assign(vertexCount, none);
   forEachIndex(execution, this->size(),
     [this](std::size_t part)
     {
@@ -233,33 +224,22 @@ VertexParts partsOfGroups(const Execution& execution, const SurfaceMesh& mesh,
   const std::vector<std::size_t>& groups, std::size_t groupCount)
 {
   ConnectedVertices connected = connectedWithin(execution, mesh, groups);
-  std::vector<std::size_t> roots(groups.size());
-  forEachIndex(
-    execution, roots.size(), [&](std::size_t vertex) { roots[vertex] = connected.rootOf(vertex); });
+  const std::vector<std::size_t> roots = connected.roots(execution);
   ItemLists members(execution, roots.size(), roots.size(),
     [&roots](std::size_t vertex) { return std::array{ roots[vertex] }; });
   const std::vector<std::size_t> firsts = itemsThat(
     execution, roots.size(), [&](std::size_t vertex) { return members.at(vertex).count > 1; });
-  using GroupFirst = std::pair<std::size_t, std::size_t>;
-  std::vector<GroupFirst> ordered(firsts.size());
-  forEachIndex(execution, firsts.size(),
-    [&](std::size_t i) {
-      ordered[i] = { groups[firsts[i]], firsts[i] };
-    });
-  ordered = sortedUnique(
-    execution, ordered, groupCount, [](const GroupFirst& first) { return first.first; });
-  VertexParts result;
-  result.parts.resize(ordered.size());
-  forEachIndex(execution, ordered.size(),
-    [&](std::size_t part)
+  const std::vector<std::size_t> ordered = orderByKeys(
+    execution, firsts.size(), groupCount, [&](std::size_t i) { return groups[firsts[i]]; },
+    [](std::size_t group) { return group; });
+  std::vector<VertexParts::Part> parts = tabulated<VertexParts::Part>(execution, ordered.size(),
+    [&](std::size_t part) -> VertexParts::Part
     {
-      const IndexSpan<std::size_t> own = members.at(ordered[part].second);
+      const IndexSpan<std::size_t> own = members.at(firsts[ordered[part]]);
       const auto begin = static_cast<std::size_t>(own.first - members.at(0).first);
-      result.parts[part] = { begin, begin + own.count };
+      return { begin, begin + own.count };
     });
-  result.vertices = std::move(members).all();
-  result.number(execution, groups.size());
-  return result;
+  return { execution, std::move(members).all(), std::move(parts), groups.size() };
 }
 
 std::vector<char> contractibleParts(const Execution& execution, const SurfaceMesh& mesh,

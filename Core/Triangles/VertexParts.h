@@ -27,6 +27,18 @@ struct VertexParts
 
   bool isInside(std::size_t vertex, std::size_t part) const { return this->partOf[vertex] == part; }
 
+  /// Whether a vertex is in a part with a mark.
+  bool isMarked(std::size_t vertex, const std::vector<char>& ofParts) const
+  {
+    return this->partOf[vertex] != none && ofParts[this->partOf[vertex]] != 0;
+  }
+
+  /// The lowest vertex of the part of a vertex, if the part has a mark; else the vertex.
+  std::size_t rootOf(std::size_t vertex, const std::vector<char>& ofParts) const
+  {
+    return this->isMarked(vertex, ofParts) ? this->verticesOf(this->partOf[vertex])[0] : vertex;
+  }
+
   /// Ascending.
   IndexSpan<std::size_t> verticesOf(std::size_t part) const
   {
@@ -34,8 +46,10 @@ struct VertexParts
     return { this->vertices.data() + own.begin, own.end - own.begin };
   }
 
-  /// Sets partOf. @throws std::bad_alloc, Aborted
-  void number(const Execution& execution, std::size_t vertexCount);
+  /// @param vertexCount of the mesh
+  /// @throws std::bad_alloc, Aborted
+  VertexParts(const Execution& execution, std::vector<std::size_t> allVertices,
+    std::vector<Part> allParts, std::size_t vertexCount);
 
   std::vector<std::size_t> vertices;
   std::vector<Part> parts;

@@ -369,7 +369,7 @@ TEST(Regularization, ATetrahedronStays)
 {
   const std::vector<Vector> positions{ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
   const Triangles triangles{ { 0, 1, 3 }, { 0, 2, 1 }, { 0, 3, 2 }, { 1, 2, 3 } };
-  const MergedTriangles merged = mergeVertices({}, { positions, triangles, {}, { 0, 0, 1, 2 }, 3 });
+  const CrossingMesh merged = mergeVertices({}, { positions, triangles, {}, { 0, 0, 1, 2 }, 3 });
   EXPECT_EQ(merged.positions, positions);
   EXPECT_EQ(merged.triangles, triangles);
 }
@@ -378,7 +378,7 @@ TEST(Regularization, ATetrahedronStays)
 TEST(Regularization, ARingStays)
 {
   const Bipyramid whole;
-  const MergedTriangles merged = mergeVertices(
+  const CrossingMesh merged = mergeVertices(
     {}, { whole.positions, whole.triangles, {}, { 0, 1, 2, 2, 2, 2, 2, 2, 2, 2, 2 }, 3 });
   const Topology sphere{ 2, 1, 0, true };
   EXPECT_EQ(topologyOf(whole.triangles), sphere);
@@ -394,7 +394,7 @@ TEST(Regularization, NeighborsBecomeOneVertexAtTheirMean)
     return mergeVertices(
       {}, { positions, whole.triangles, {}, { 0, 1, 2, 2, 2, 3, 3, 3, 4, 4, 4 }, 5 });
   };
-  const MergedTriangles merged = merge();
+  const CrossingMesh merged = merge();
   ASSERT_EQ(merged.positions.size(), 5u);
   EXPECT_EQ(merged.triangles.size(), 6u);
   EXPECT_EQ(merged.memberBegins, (std::vector<std::size_t>{ 0, 1, 2, 5, 8, 11 }));

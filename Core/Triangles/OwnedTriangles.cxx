@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "Core/Triangles/SurfacePart.h"
+#include "Core/Triangles/OwnedTriangles.h"
 
 #include "Core/Base/Lists.h"
 #include "Core/Triangles/SurfaceMesh.h"
@@ -10,8 +10,9 @@
 namespace isopoint
 {
 
-SurfacePart partOfRank(const Execution& execution, const std::vector<SurfaceTriangle>& triangles,
-  const std::vector<std::size_t>& vertexRanks, std::size_t rank, int ghostRings)
+OwnedTriangles ownedTriangles(const Execution& execution,
+  const std::vector<SurfaceTriangle>& triangles, const std::vector<std::size_t>& vertexRanks,
+  std::size_t rank, int ghostRings)
 {
   constexpr int outside = -1;
   const OutgoingHalfEdges outgoing(execution, triangles, vertexRanks.size());
@@ -29,40 +30,31 @@ SurfacePart partOfRank(const Execution& execution, const std::vector<SurfaceTria
                                            [&](std::size_t vertex) { return areInside[vertex]; });
         rings[i] = isAdded && rings[i] == outside ? ring : rings[i];
       });
-    forEachIndex(execution, areInside.size(),
-      [&](std::size_t vertex)
-      {
-        const bool isInside =
-          outgoing.anyAt(vertex, [&rings](HalfEdge side) { return rings[side / 3] != outside; });
-        areInside[vertex] = isInside ? 1 : 0;
+    areInside = tabulated<char>(execution, vertexRanks.size(),
+      [&](std::size_t vertex) {
+        return outgoing.anyAt(vertex, [&](HalfEdge side) { return rings[side / 3] != outside; });
       });
   }
-  SurfacePart part;
-  part.vertices = markedOf(execution, areInside);
-  part.areGhosts.resize(part.vertices.size());
-  std::vector<std::size_t> places(areInside.size(), 0); // in the part
-  forEachInOrder(execution, part.vertices.size(),
-    [&](std::size_t i)
-    {
-      const std::size_t vertex = part.vertices[i];
-      part.areGhosts[i] = !isOwn(outgoing.firstAt(vertex) / 3);
-      places[vertex] = i;
-    });
+  OwnedTriangles owned;
+  owned.vertices = markedOf(execution, areInside);
+  const std::vector<char> areGhosts = tabulated<char>(execution, owned.vertices.size(),
+    [&](std::size_t i) { return !isOwn(outgoing.firstAt(owned.vertices[i]) / 3); });
+  owned.areGhosts.assign(areGhosts.begin(), areGhosts.end());
+  const std::vector<std::size_t> places = placesIn(execution, owned.vertices, areInside.size());
   std::vector<std::size_t> chosen =
     itemsThat(execution, rings.size(), [&rings](std::size_t i) { return rings[i] == 0; });
   const std::vector<std::size_t> ghosts =
     itemsThat(execution, rings.size(), [&rings](std::size_t i) { return rings[i] > 0; });
   chosen.insert(chosen.end(), ghosts.begin(), ghosts.end());
-  part.ghostCount = ghosts.size();
-  part.triangles.resize(chosen.size());
-  forEachIndex(execution, chosen.size(),
-    [&](std::size_t i)
+  owned.ghostCount = ghosts.size();
+  owned.triangles = tabulated<SurfaceTriangle>(execution, chosen.size(),
+    [&](std::size_t i) -> SurfaceTriangle
     {
       const auto& [a, b, c] = triangles[chosen[i]];
-      part.triangles[i] = { places[a], places[b], places[c] };
+      return { places[a], places[b], places[c] };
     });
-  part.triangleNumbers = std::move(chosen);
-  return part;
+  owned.triangleNumbers = std::move(chosen);
+  return owned;
 }
 
 } // namespace isopoint

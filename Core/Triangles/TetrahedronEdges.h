@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "Core/Base/ConcurrentMemo.h"
+#include "Core/Base/Execution.h"
+#include "Core/Base/Lists.h"
+#include "Core/Neighbors/SampleSpacing.h"
+#include "Core/Neighbors/VoidCriterion.h"
+#include "Core/Tree/SampleBounds.h"
+#include "Core/Tree/SampleTree.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace isopoint
+{
+
+/// Applies criteria to the edges of tetrahedra, to each edge once. With a process group, all
+/// functions are collective.
+/// @tparam TRanks SingleRank, or SharedRanks
+template <class TSample, class TRanks>
+class TetrahedronEdges
+{
+public:
+  TetrahedronEdges(const Execution& execution, const SampleTree<TSample>& tree, TRanks& ranks)
+    : Exec(execution)
+    , Tree(tree)
+    , Bounds(tree)
+    , Ranks(ranks)
+  {
+  }
+
+  /// The tetrahedra with an edge that a criterion rejects.
+  /// @param tetrahedra the same on all ranks
+  /// @param cornersOf(tetrahedron) the four leaves at its corners
+  /// @throws std::bad_alloc, Aborted, FailedElsewhere
+  template <class TCriterion, class CornersOf>
+  std::vector<std::size_t> rejectedAmong(const TCriterion& criterion,
+    const std::vector<std::size_t>& tetrahedra, const CornersOf& cornersOf)
+  {
+    std::vector<Edge> edges(6 * tetrahedra.size());
+    forEachIndex(this->Exec, tetrahedra.size(),
+      [&](std::size_t i)
+      {
+        const std::array<Edge, 6> own = this->edgesBetween(cornersOf(tetrahedra[i]));
+        std::copy(own.begin(), own.end(), &edges[6 * i]);
+      });
+    const std::vector<Edge> rejected = this->rejectedOf(criterion, edges);
+    return chosenOf(this->Exec, tetrahedra,
+      itemsThat(this->Exec, tetrahedra.size(),
+        [&](std::size_t i)
+        {
+          return std::any_of(&edges[6 * i], &edges[6 * i] + 6,
+            [&](const Edge& edge)
+            { return std::binary_search(rejected.begin(), rejected.end(), edge); });
+        }));
+  }
+
+private:
+  /// Edges are ordered by the places of their ends in the tree.
+  struct Edge
+  {
+    std::array<std::size_t, 2> places; // ascending
+    std::array<std::size_t, 2> leaves; // in the same order
+
+    bool operator<(const Edge& other) const { return this->places < other.places; }
+    bool operator==(const Edge& other) const { return this->places == other.places; }
+  };
+
+  std::array<Edge, 6> edgesBetween(const std::array<std::size_t, 4>& corners) const
+  {
+    std::array<Edge, 6> edges;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      for (std::size_t j = i + 1; j < 4; ++j)
+      {
+        const std::size_t a = this->Tree.nodes[corners[i]].begin;
+        const std::size_t b = this->Tree.nodes[corners[j]].begin;
+        edges[count++] = a < b ? Edge{ { a, b }, { corners[i], corners[j] } }
+                               : Edge{ { b, a }, { corners[j], corners[i] } };
+      }
+    }
+    return edges;
+  }
+
+  /// The edges that a criterion rejects, ordered. The rank that owns the first end asks it.
+  /// @param edges with repetitions
+  template <class TCriterion>
+  std::vector<Edge> rejectedOf(const TCriterion& criterion, const std::vector<Edge>& edges)
+  {
+    const std::vector<Edge> distinct = sortedUnique(this->Exec, edges, this->Tree.samples.size(),
+      [](const Edge& edge) { return edge.places[0]; });
+    std::vector<std::size_t> found = itemsThat(this->Exec, this->Ranks, distinct.size(),
+      [&](std::size_t i)
+      {
+        return this->Tree.isOwn(distinct[i].places[0]) &&
+               this->isRejected(criterion, distinct[i].leaves);
+      });
+    this->Ranks.unite(found);
+    return chosenOf(this->Exec, distinct, found);
+  }
+
+  template <class TCriterion>
+  bool isRejected(const TCriterion& criterion, const std::array<std::size_t, 2>& leaves)
+  {
+    return criterion.drops(
+      this->Tree, this->Bounds, this->Tree.sampleOf(leaves[0]), this->Tree.sampleOf(leaves[1]));
+  }
+
+  template <class TCriterion>
+  bool isRejected(
+    const VoidCriterion<TCriterion>& criterion, const std::array<std::size_t, 2>& leaves)
+  {
+    return criterion.drops(this->Tree, this->Bounds, this->Tree.sampleOf(leaves[0]),
+      this->Tree.sampleOf(leaves[1]),
+      std::max(this->spacingAt(leaves[0]), this->spacingAt(leaves[1])));
+  }
+
+  double spacingAt(std::size_t leaf)
+  {
+    return this->Spacings.at(
+      leaf, [&]() { return SpacingSearch<TSample>(this->Tree, this->Tree.sampleOf(leaf)).find(); });
+  }
+
+  const Execution& Exec;
+  const SampleTree<TSample>& Tree;
+  SampleBounds<TSample> Bounds;
+  TRanks& Ranks;
+  ConcurrentMemo<double> Spacings; // by leaf
+};
+
+} // namespace isopoint
