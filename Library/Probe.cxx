@@ -166,7 +166,7 @@ isopoint_weights isopoint_neighborhoods::weights()
     this->values.clear();
     this->gradients.clear();
     std::vector<std::int64_t> rows(1, 0);
-    isopoint::Surroundings around;
+    isopoint::NearbySamples around;
     for (std::size_t place = 0; place < this->found.places.size(); ++place)
     {
       this->found.surroundings(place, false, around);

@@ -157,7 +157,8 @@ void forEachIndex(
     batchDone);
 }
 
-/// The same in ascending order and in the calling thread, for items that depend on earlier ones.
+/// Calls work(i) for i = 0 .. count - 1, ascending and in the calling thread, for items that depend
+/// on earlier ones; checks for aborts in between.
 template <class Work>
 void forEachInOrder(const Execution& execution, std::size_t count, const Work& work)
 {

@@ -177,7 +177,8 @@ std::vector<std::size_t> itemsThat(
     });
 }
 
-/// The same for a test that may need samples of other ranks. Collective.
+/// The ascending items 0 .. count - 1 that pass a test which may need samples of other ranks.
+/// Collective.
 /// @param ranks SingleRank or SharedRanks
 template <class TRanks, class IsWanted>
 std::vector<std::size_t> itemsThat(
@@ -437,7 +438,7 @@ std::vector<T> sortedUnique(const Execution& execution, const std::vector<T>& el
   return dealt;
 }
 
-/// The same for numbers below a count.
+/// Numbers below a count, each once, ascending.
 inline std::vector<std::size_t> sortedUnique(
   const Execution& execution, const std::vector<std::size_t>& numbers, std::uint64_t count)
 {

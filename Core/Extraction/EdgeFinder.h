@@ -86,7 +86,7 @@ private:
         this->connectToSurvivors(leaf, value);
         return;
       }
-      const Surroundings surroundings(leaf);
+      const TouchingRoots surroundings(leaf);
       if (!touchesOtherSide(this->Tree, surroundings, maximumDepth, this->Isovalue, isBelow))
       {
         return;
@@ -114,7 +114,7 @@ private:
     double value;
   };
 
-  void listNeighbors(std::size_t leaf, const Surroundings& surroundings)
+  void listNeighbors(std::size_t leaf, const TouchingRoots& surroundings)
   {
     const std::size_t begin = this->KeptRecords;
     this->Records.resize(begin);

@@ -81,7 +81,8 @@ private:
   std::uint32_t Generation = 1;
 };
 
-/// The same for indices below a limit: twice as fast, but takes two bytes for each index below it.
+/// A set of indices below a limit: twice as fast as IndexSet, but takes two bytes for each index
+/// below the limit.
 class DenseIndexSet
 {
 public:

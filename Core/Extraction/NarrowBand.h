@@ -31,7 +31,7 @@ struct BandNode
 /// isovalue: then the surface may pass here.
 template <class TSample>
 bool isCrossing(const SampleTree<TSample>& tree, std::size_t nodeIndex,
-  const Surroundings& surroundings, int nodeDepth, double isovalue)
+  const TouchingRoots& surroundings, int nodeDepth, double isovalue)
 {
   const Node<TSample>& node = tree.nodes[nodeIndex];
   const bool hasBelow = node.minimum < isovalue;
@@ -329,7 +329,7 @@ private:
     {
       return;
     }
-    const Surroundings surroundings(path);
+    const TouchingRoots surroundings(path);
     try
     {
       if (isCrossing(this->Tree, path.nodeIndex(), surroundings, depth, this->Isovalue))
@@ -345,7 +345,7 @@ private:
     }
   }
 
-  void markAround(std::size_t crossing, const Surroundings& surroundings, int depth)
+  void markAround(std::size_t crossing, const TouchingRoots& surroundings, int depth)
   {
     this->Marks.set(crossing, needed | crossed);
     if (this->ListBudget.isSpent())

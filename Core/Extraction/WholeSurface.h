@@ -49,7 +49,7 @@ public:
   {
   }
 
-  /// The same for cells, which refer to points.
+  /// Sets the cells of other ranks' points, which refer to points.
   template <class TCells>
   void shareCells(TCells& /*cells*/) const
   {

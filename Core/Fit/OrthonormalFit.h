@@ -266,7 +266,7 @@ private:
   std::array<Lanes, size> AtPlace; // value and gradient of each polynomial
   Numbers Weights;
   Numbers Rests; // 1 less the share of a sample in its own fit
-  Numbers Loose; // what that lacks to the least one
+  Numbers Loose; // the least rest less this, if that is positive
   bool HasLoose = false;
   double ValueEffect = 0.0;
   double GradientEffect = 0.0;

@@ -31,7 +31,7 @@ public:
   /// @param reach distance at which weights are 0
   void prepare(const std::vector<Vector>& offsets, std::size_t count, double reach);
 
-  /// The same from weights() of an earlier time, unless the method is Blend.
+  /// Prepares the fits from weights() of an earlier time, unless the method is Blend.
   /// @param weights four for each of `count` positions
   void prepareFrom(const double* weights, std::size_t count);
 

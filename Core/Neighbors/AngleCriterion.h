@@ -55,8 +55,8 @@ public:
     return true;
   }
 
-  /// The same in a neighborhood sorted by nearestFirst(). Mostly far less than O(count), since the
-  /// nearest neighbors drop most others; O(count) for survivors.
+  /// Whether an offset survives in a neighborhood sorted by nearestFirst(). Mostly far less than
+  /// O(count), since the nearest neighbors drop most others; O(count) for survivors.
   bool survivesAmongSorted(const Offset* offsets, const Offset& y) const
   {
     for (; !this->DropsNothing && offsets->squaredLength < y.squaredLength; ++offsets)

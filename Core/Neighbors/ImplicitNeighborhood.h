@@ -41,7 +41,7 @@ public:
     this->Region = leaf.region;
     this->Center = positionOf(this->Tree.sampleOf(leaf.nodeIndex()));
     this->Tops.clear();
-    for (const FoundNode& root : Surroundings(leaf))
+    for (const FoundNode& root : TouchingRoots(leaf))
     {
       this->Tops.push_back(root.nodeIndex);
     }

@@ -74,11 +74,11 @@ bool visitTouchingInSubtree(const SampleTree<TSample>& tree, FoundNode top, int 
 /// The roots of the subtrees that hold all nodes whose closed regions share a point with that of
 /// the path's node. Each is across a bounding plane of the region: that of the nearest ancestor
 /// that cuts the axis on this side, and of farther ones at the same coordinate, as in lattices.
-class Surroundings
+class TouchingRoots
 {
 public:
   /// Implicit: a path stands for the surroundings of its node.
-  Surroundings(const Path& path)
+  TouchingRoots(const Path& path)
     : region(path.region)
   {
     // Write each root and count those across a bounding plane: a branch would be unpredictable.
@@ -108,8 +108,8 @@ private:
 /// @param enter, visit see visitTouchingInSubtree()
 /// Complexity: O(depth + nodes visited); 14.5 neighbors on average in a uniform cloud
 template <class TSample, class Filter, class Visitor>
-bool visitTouching(const SampleTree<TSample>& tree, const Surroundings& surroundings, int nodeDepth,
-  const Filter& enter, const Visitor& visit)
+bool visitTouching(const SampleTree<TSample>& tree, const TouchingRoots& surroundings,
+  int nodeDepth, const Filter& enter, const Visitor& visit)
 {
   return std::any_of(surroundings.begin(), surroundings.end(),
     [&](FoundNode root)
@@ -117,8 +117,8 @@ bool visitTouching(const SampleTree<TSample>& tree, const Surroundings& surround
 }
 
 template <class TSample, class Visitor>
-bool visitTouching(const SampleTree<TSample>& tree, const Surroundings& surroundings, int nodeDepth,
-  const Visitor& visit)
+bool visitTouching(const SampleTree<TSample>& tree, const TouchingRoots& surroundings,
+  int nodeDepth, const Visitor& visit)
 {
   const auto enterAll = [](const Node<TSample>&) { return true; };
   return visitTouching(tree, surroundings, nodeDepth, enterAll, visit);
@@ -129,7 +129,7 @@ bool visitTouching(const SampleTree<TSample>& tree, const Surroundings& surround
 /// @throws MissingNode where the tree is not split, as on one of several ranks
 template <class TSample, class Visitor>
 bool visitNeighbors(
-  const SampleTree<TSample>& tree, const Surroundings& surroundings, const Visitor& visit)
+  const SampleTree<TSample>& tree, const TouchingRoots& surroundings, const Visitor& visit)
 {
   return visitTouching(tree, surroundings, maximumDepth,
     [&](std::size_t nodeIndex)
@@ -197,7 +197,7 @@ bool mayHoldOtherSide(const Node<TSample>& node, double isovalue, bool isBelow)
 /// Value ranges prune the search.
 /// @param isBelow the side of the surrounded node: below the isovalue, or not
 template <class TSample>
-bool touchesOtherSide(const SampleTree<TSample>& tree, const Surroundings& surroundings,
+bool touchesOtherSide(const SampleTree<TSample>& tree, const TouchingRoots& surroundings,
   int nodeDepth, double isovalue, bool isBelow)
 {
   return visitTouching(

@@ -9,12 +9,12 @@
 namespace isopoint
 {
 
-/// Rejects edges that span a void. Another criterion rejects such an edge, and a ball around one of
-/// the seven points that divide it into eight equal parts has no samples: its radius is a factor
-/// times the spacing, the distance from an end to the tenth nearest position, the greater of both
-/// ends. Long edges of slivers on the convex hull pass, because samples inside are close to them.
-/// Edges from rim to rim, with nothing behind either end, are rejected by themselves if the radius
-/// is two spacings and the samples around both ends extend along the edge.
+/// Rejects edges that span a void: that another criterion rejects, and that have an empty ball
+/// around one of the seven points which divide them into eight equal parts. The ball's radius is a
+/// factor times the spacing, which is the distance to the tenth nearest position, the larger of
+/// both ends. Long edges of slivers on the convex hull pass, because samples inside are close to
+/// them. Edges from rim to rim, with nothing behind either end, need no other criterion if a ball
+/// of two spacings is empty and the samples around both ends extend along the edge.
 template <class TCriterion>
 class VoidCriterion
 {

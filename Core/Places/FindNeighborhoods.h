@@ -85,7 +85,7 @@ Neighborhoods neighborhoodsOf(const Execution& execution, const SampleTree<TSamp
     execution, tree, nodes, options, places, [&]() { return PlaceEvaluator(options, none); },
     [&](PlaceEvaluator& evaluator, std::size_t place, const SurroundingsSearch<TSample>& search)
     {
-      const Surroundings& around = search.around();
+      const NearbySamples& around = search.around();
       result.kinds[place] = evaluator.enter(around);
       result.reaches[place] = around.reach;
       counts[place] = around.size();

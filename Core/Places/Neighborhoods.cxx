@@ -9,7 +9,7 @@
 namespace isopoint
 {
 
-void Neighborhoods::surroundings(std::size_t place, bool isNumbered, Surroundings& result) const
+void Neighborhoods::surroundings(std::size_t place, bool isNumbered, NearbySamples& result) const
 {
   result.clear();
   for (std::size_t i = this->begins[place]; i < this->begins[place + 1]; ++i)
@@ -29,10 +29,10 @@ void Neighborhoods::surroundings(std::size_t place, bool isNumbered, Surrounding
 void probeNeighborhoods(const Execution& execution, const Neighborhoods& neighborhoods,
   const std::vector<ProbedArray>& arrays, bool areNumbered)
 {
-  using Worker = std::pair<PlaceEvaluator, Surroundings>;
+  using Worker = std::pair<PlaceEvaluator, NearbySamples>;
   forEachItem(
     execution, { neighborhoods.places.size(), 2048, 256 },
-    [&]() { return Worker(PlaceEvaluator(neighborhoods.options, arrays), Surroundings()); },
+    [&]() { return Worker(PlaceEvaluator(neighborhoods.options, arrays), NearbySamples()); },
     [&](Worker& worker, std::size_t place)
     {
       neighborhoods.surroundings(place, areNumbered, worker.second);

@@ -21,7 +21,7 @@ struct Neighborhoods
   ProbeOptions options;
   std::vector<Vector> places;
   std::vector<std::uint8_t> kinds;   // PlaceKinds, by place
-  std::vector<double> reaches;       // see Surroundings
+  std::vector<double> reaches;       // see NearbySamples
   std::vector<std::size_t> begins;   // of places in `around`, and the end
   std::vector<std::uint32_t> around; // indices of positions, nearest first
   std::vector<double> weights;       // four for each of these; empty for Blend
@@ -31,7 +31,7 @@ struct Neighborhoods
   int exponent = 0; // places and positions are those of the input divided by 2^exponent
 
   /// @param isNumbered whether to number samples by their index in `ids` in place of their ids
-  void surroundings(std::size_t place, bool isNumbered, Surroundings& result) const;
+  void surroundings(std::size_t place, bool isNumbered, NearbySamples& result) const;
 };
 
 /// Interpolates arrays at the places of neighborhoods.

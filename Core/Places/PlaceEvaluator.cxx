@@ -20,7 +20,7 @@ bool hasGradients(const std::vector<ProbedArray>& arrays)
 
 } // namespace
 
-void Surroundings::setReach(std::size_t most, double next)
+void NearbySamples::setReach(std::size_t most, double next)
 {
   constexpr double beyond = 1.1; // the farthest of all samples counts, too
   this->fitted = std::min(most, this->offsets.size());
@@ -42,7 +42,7 @@ PlaceEvaluator::PlaceEvaluator(const ProbeOptions& options, const std::vector<Pr
 {
 }
 
-std::uint8_t PlaceEvaluator::enter(const Surroundings& around)
+std::uint8_t PlaceEvaluator::enter(const NearbySamples& around)
 {
   this->IsPrepared = false;
   return around.offsets.empty() ? std::uint8_t{ PlaceOutside } : this->kindsOf(around.offsets);
@@ -56,7 +56,7 @@ std::uint8_t PlaceEvaluator::kindsOf(const std::vector<Vector>& offsets) const
            : kinds;
 }
 
-void PlaceEvaluator::writeWeights(const Surroundings& around, double* weights)
+void PlaceEvaluator::writeWeights(const NearbySamples& around, double* weights)
 {
   if (around.fitted == 0)
   {
@@ -72,7 +72,7 @@ void PlaceEvaluator::writeWeights(const Surroundings& around, double* weights)
   }
 }
 
-void PlaceEvaluator::evaluate(std::size_t place, const Surroundings& around, std::uint8_t kinds)
+void PlaceEvaluator::evaluate(std::size_t place, const NearbySamples& around, std::uint8_t kinds)
 {
   const bool isOutside = (kinds & PlaceOutside) != 0;
   for (const ProbedArray& array : this->Arrays)
@@ -106,7 +106,7 @@ void PlaceEvaluator::evaluate(std::size_t place, const Surroundings& around, std
 }
 
 void PlaceEvaluator::evaluateAgain(
-  std::size_t place, const Surroundings& around, std::uint8_t kinds, const double* weights)
+  std::size_t place, const NearbySamples& around, std::uint8_t kinds, const double* weights)
 {
   this->IsPrepared = weights != nullptr;
   if (weights)
@@ -117,7 +117,7 @@ void PlaceEvaluator::evaluateAgain(
 }
 
 /// Reads the values of an array. @returns whether all are finite
-bool PlaceEvaluator::read(const ProbedArray& array, const Surroundings& around)
+bool PlaceEvaluator::read(const ProbedArray& array, const NearbySamples& around)
 {
   this->Values.resize(static_cast<std::size_t>(array.components));
   bool areFinite = true;
@@ -155,7 +155,7 @@ bool PlaceEvaluator::read(const ProbedArray& array, const Surroundings& around)
 
 /// An array that lacks values of some samples is evaluated as if these did not exist.
 void PlaceEvaluator::evaluateOwn(
-  const ProbedArray& array, std::size_t place, const Surroundings& around)
+  const ProbedArray& array, std::size_t place, const NearbySamples& around)
 {
   this->Own.clear();
   std::size_t fitted = 0;
@@ -228,7 +228,7 @@ void PlaceEvaluator::writeNothing(const ProbedArray& array, std::size_t place) c
 }
 
 void PlaceEvaluator::take(
-  const ProbedArray& array, std::size_t place, const Surroundings& around, bool isOutside)
+  const ProbedArray& array, std::size_t place, const NearbySamples& around, bool isOutside)
 {
   const std::uint64_t* found = nullptr;
   if (!(isOutside && this->Options.outside == OutsideStrategy::Number))

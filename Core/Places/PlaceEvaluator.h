@@ -14,7 +14,7 @@ namespace isopoint
 {
 
 /// The samples around a place, nearest first. Samples at one position are one, with several ids.
-struct Surroundings
+struct NearbySamples
 {
   std::vector<Vector> offsets;       // from the place, by position
   std::vector<std::uint64_t> ids;    // ascending for each position
@@ -51,37 +51,38 @@ public:
   PlaceEvaluator(const ProbeOptions& options, const std::vector<ProbedArray>& arrays);
 
   /// Goes to a place. @returns PlaceKinds
-  std::uint8_t enter(const Surroundings& around);
+  std::uint8_t enter(const NearbySamples& around);
 
   /// Writes the results of all arrays at a place, after enter(). O(samples) for each
   /// @param around without samples if the place is outside anyway
   /// @param kinds as enter() returned
-  void evaluate(std::size_t place, const Surroundings& around, std::uint8_t kinds);
+  void evaluate(std::size_t place, const NearbySamples& around, std::uint8_t kinds);
 
-  /// The same without enter(). @param weights of an earlier time; null if the method is Blend
+  /// Writes the results of all arrays at a place that was entered earlier. @param weights of an
+  /// earlier time; null if the method is Blend
   void evaluateAgain(
-    std::size_t place, const Surroundings& around, std::uint8_t kinds, const double* weights);
+    std::size_t place, const NearbySamples& around, std::uint8_t kinds, const double* weights);
 
   /// Writes four weights for each position that is fitted to, after enter(), unless the method is
   /// Blend: see PlaceFitter::weights().
-  void writeWeights(const Surroundings& around, double* weights);
+  void writeWeights(const NearbySamples& around, double* weights);
 
 private:
   std::uint8_t kindsOf(const std::vector<Vector>& offsets) const;
-  bool read(const ProbedArray& array, const Surroundings& around);
-  void evaluateOwn(const ProbedArray& array, std::size_t place, const Surroundings& around);
+  bool read(const ProbedArray& array, const NearbySamples& around);
+  void evaluateOwn(const ProbedArray& array, std::size_t place, const NearbySamples& around);
   void apply(const ProbedArray& array, std::size_t place, PlaceFitter& fitter);
   void writeOutside(const ProbedArray& array, std::size_t place) const;
   void writeNothing(const ProbedArray& array, std::size_t place) const;
   void take(
-    const ProbedArray& array, std::size_t place, const Surroundings& around, bool isOutside);
+    const ProbedArray& array, std::size_t place, const NearbySamples& around, bool isOutside);
 
   const ProbeOptions& Options;
   const std::vector<ProbedArray>& Arrays;
   PlaceFitter Fitter;
   PlaceFitter OwnFitter;   // of an array that lacks values
   bool IsPrepared = false; // the fitter, for the place
-  Surroundings Own;
+  NearbySamples Own;
   std::vector<SampleNumbers> Values; // by component, then position
   std::vector<double> Numbers;       // by id
 };

@@ -100,7 +100,7 @@ public:
     return true;
   }
 
-  const Surroundings& around() const { return this->Around; }
+  const NearbySamples& around() const { return this->Around; }
 
   /// The samples of around(), and perhaps one more.
   const std::vector<NearSample<TSample>>& found() const { return this->Search.found(); }
@@ -125,7 +125,7 @@ private:
   const std::size_t Fitted;
   const std::size_t Needed;
   const bool IgnoresFar;
-  Surroundings Around;
+  NearbySamples Around;
 };
 
 /// The unsplit node or bucket around a place.

@@ -92,7 +92,7 @@ private:
 
   bool isSmooth(std::size_t point) const { return isSmoothAt(this->Points, point); }
 
-  /// Or 0 without fits.
+  /// The sample spacing at a point, 0 without fits.
   double spacingAt(std::size_t point) const
   {
     return this->Points.fits.empty() ? 0.0 : this->Points.fits[point].spacing;

@@ -45,7 +45,7 @@ public:
     this->cut(dot(outward, this->Frame.first), dot(outward, this->Frame.second), distance, side);
   }
 
-  /// The same, with the components of `outward` along the axes of frame().
+  /// Cuts where the outward direction has these components along the axes of frame().
   void cut(double a, double b, double distance, std::size_t side)
   {
     if (distance * distance >= (a * a + b * b) * this->SquaredReach ||

@@ -70,7 +70,7 @@ bool isOfFinerGrid(const Entry& entry)
   return (entry.first & 1) != 0;
 }
 
-/// The same for all entries in a cell.
+/// A number of the entry's cell, in its own grid or the coarser one.
 std::uint64_t cellNumber(const Entry& entry)
 {
   return entry.first >> 1;

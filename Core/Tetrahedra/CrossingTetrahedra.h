@@ -250,8 +250,8 @@ private:
     leaves = inTreeOrder(this->Exec, this->Tree, leaves);
   }
 
-  /// Continues with the kept band if it contains a quarter of the leaves and, except for bodies,
-  /// whose borders change little, not many others; otherwise begins a new one. `Kept` is null
+  /// Reuses the kept band if it contains at least a quarter of the leaves and, except for bodies,
+  /// whose borders change little, not many others. Otherwise begins a new one. `Kept` is null
   /// meanwhile, because updates may fail.
   /// @param leaves gathered
   void begin(const std::vector<std::size_t>& leaves)
@@ -458,7 +458,7 @@ private:
     return this->Ranks.isAny(openCount > 0);
   }
 
-  /// The same for the listed cells.
+  /// Certifies the listed cells, or inserts what their spheres contain.
   void certifyListed(std::size_t openCount)
   {
     throwIfAborted(this->Exec);
@@ -550,9 +550,9 @@ private:
            static_cast<double>(leafCount) > manyShare * static_cast<double>(count);
   }
 
-  /// Whether searches took so long that inserting all samples is faster. Long searches, as in huge
-  /// spheres through voids, tend to be followed by more of them and get a smaller budget. On
-  /// several ranks, each would insert all samples.
+  /// Whether searches took longer than inserting all samples would. The budget is smaller if they
+  /// are long on average, as in huge spheres through voids, since more of them follow. On several
+  /// ranks, each would insert all samples.
   bool isSpent() const
   {
     constexpr std::size_t longSearch = 500;

@@ -18,8 +18,8 @@ namespace isopoint
 /// Once all crossing cells are certified, finds samples whose values are not on the side of the
 /// isovalue that the band's surface indicates at their positions. They show pieces of the surface
 /// where the band has no samples.
-/// Boxes of samples that no sphere of a crossing tetrahedron reached do not meet the surface: one
-/// sample represents all in them. In a process group, each rank checks its own samples.
+/// If no searched sphere reaches a box of samples, the surface does not either, and testing one of
+/// its samples tests all. In a process group, each rank checks its own samples.
 template <class TSample>
 class SideCheck
 {
@@ -73,7 +73,7 @@ private:
   struct Place
   {
     std::size_t sample;
-    std::size_t node; // without children; contains the sample or part of those it represents
+    std::size_t node; // without children, that contains the sample
     bool isBelow;
   };
 
@@ -109,7 +109,7 @@ private:
     return { false, false, false };
   }
 
-  /// The same for a node without children.
+  /// Collects the samples of a node without children.
   Summary collectEnd(std::size_t nodeIndex, bool isReached)
   {
     const Node<TSample>& node = this->Tree.nodes[nodeIndex];

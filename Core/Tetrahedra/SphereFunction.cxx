@@ -143,7 +143,7 @@ SphereFunction functionOf(const Vector& origin, double scale, const Ball<Bounded
   return { origin, scale, ball.d.value, relativeError * ball.d.magnitude, n, nError };
 }
 
-/// The same from numbers that were rounded once.
+/// The function of a ball whose exact numbers are rounded once.
 SphereFunction functionOf(const Vector& origin, double scale, const Ball<Exact>& ball)
 {
   return functionOf(origin, scale,

@@ -31,7 +31,7 @@ inline constexpr std::uint8_t inBand = 1;
 /// of few samples.
 inline constexpr std::uint8_t reached = 2;
 
-/// Such a sphere may reach the region of this node, but its samples are not needed: none is inside,
+/// Such a sphere may reach the region of this node but needs none of its samples: none is inside,
 /// or one farther beyond the hull was found.
 inline constexpr std::uint8_t missed = 4;
 
@@ -272,7 +272,7 @@ private:
       boundsIn(shape, this->Boxes.at(nodeIndex, [&]() { return boxOfSamples(this->Tree, node); })));
   }
 
-  /// The same for a node without children.
+  /// Visits the samples of a node without children.
   template <class TShape>
   bool visitEnd(std::size_t nodeIndex, TShape& shape)
   {

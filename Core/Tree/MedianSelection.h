@@ -37,8 +37,8 @@ MiddleCoordinates<TCoordinate> selectByCounting(
     {
       smaller += coordinates[j] < coordinate ? 1 : 0;
     }
-    // Equal coordinates have the ranks from `smaller` on. `last` is the greatest coordinate that
-    // has a rank below `rank`; the number of coordinates up to it decides `first`.
+    // Equal coordinates occupy consecutive ranks from `smaller` on. `last` is the greatest
+    // coordinate that has a rank below `rank`; the number of coordinates up to it decides `first`.
     last = static_cast<std::size_t>(smaller) < rank ? std::max(last, coordinate) : last;
     first = static_cast<std::size_t>(smaller) >= rank ? std::min(first, coordinate) : first;
   }

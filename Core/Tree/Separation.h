@@ -96,7 +96,7 @@ public:
       });
   }
 
-  /// The same if some samples may belong in either half.
+  /// Lists the next misplaced samples, if none is listed, where some may belong in either half.
   /// @param isHere(sample) whether it belongs in this half
   /// @param isThere(sample) whether it belongs in the other half
   /// @param open receives the samples that may belong in either
@@ -275,8 +275,9 @@ void separate(TSample* samples, std::size_t count, int axis, const MiddleBracket
   separation.finish(low, high, open);
 }
 
-/// The same on all threads: each one separates a part of both halves. The calling thread then
-/// exchanges the imbalance of the parts, which is small unless the cloud has a special order.
+/// Separates the samples of a node on all threads: each one separates a part of both halves. The
+/// calling thread then exchanges the imbalance of the parts, which is small unless the cloud has a
+/// special order.
 template <class TSample>
 void separateTogether(const Execution& execution, TSample* samples, std::size_t count, int axis,
   const MiddleBracket<TSample>& bracket, AmbiguousSamples<TSample>& open)

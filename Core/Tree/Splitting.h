@@ -254,7 +254,7 @@ std::optional<Halves> halve(
     [&](const auto& bracket) { separate(samples, count, axis, bracket, scratch.open); });
 }
 
-/// The same, with all threads on one node.
+/// Halves the samples of a node along an axis, with all threads. @returns as halve()
 template <class TSample>
 std::optional<Halves> halveTogether(
   const Execution& execution, TSample* samples, std::size_t count, int axis)

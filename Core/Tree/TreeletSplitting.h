@@ -81,7 +81,7 @@ public:
     this->split(node, region, levels, halveAlone, rangeAlone);
   }
 
-  /// The same, with all threads on each node.
+  /// Splits a treelet, with all threads on each node.
   void splitTogether(
     const Execution& execution, Node<TSample>& node, const Region& region, int levels)
   {

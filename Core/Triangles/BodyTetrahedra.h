@@ -23,8 +23,8 @@ namespace isopoint
 /// least one corner is not below the isovalue.
 struct CapFacet : FacetCorners
 {
-  /// Per side, from a corner to the next: the cap facet that bounds the same wedge of the body.
-  /// Undefined for a side with both ends below.
+  /// Per side, from a corner to the next: the cap facet that is met by turning around this side
+  /// through the body. Undefined for a side with both ends below.
   std::array<std::size_t, 3> partners;
 };
 

@@ -40,7 +40,7 @@ public:
     return vertex;
   }
 
-  /// The same for all vertices. @throws std::bad_alloc, Aborted
+  /// The roots of all vertices. @throws std::bad_alloc, Aborted
   std::vector<std::size_t> roots(const Execution& execution)
   {
     return tabulated<std::size_t>(

@@ -34,8 +34,8 @@ public:
   {
   }
 
-  /// The vertices that determine the place of a part, ascending: one at the rim of caps, or its
-  /// border corner, else its border vertices, else all.
+  /// The vertices that determine the place of a part, ascending: the one at the rim of caps, else
+  /// the border corner, else all border vertices, else all vertices.
   /// @param memory overwritten; may hold them
   IndexSpan<std::size_t> membersOf(std::size_t part, std::vector<std::size_t>& memory) const
   {
@@ -261,8 +261,8 @@ private:
     this->Result.positions = std::move(positions);
   }
 
-  /// Leaves parts apart that would turn triangles over: next to a rim that stays all, else those of
-  /// caps, which are flat.
+  /// Leaves parts unmerged whose merging would invert a triangle: any triangle if the rim stays,
+  /// else triangles of caps, which are flat.
   /// @returns whether there were any; their neighbors may be no longer contractible
   bool separateTurned(const SurfaceMesh& mesh, const VertexParts& parts, const CapRim& rim,
     const PartPlaces& places, const std::vector<Vector>& former, std::vector<char>& areMerged) const

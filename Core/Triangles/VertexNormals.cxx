@@ -92,9 +92,8 @@ bool isContradicted(const std::vector<Vector>& positions,
   outgoing.forEachAt(vertex,
     [&](HalfEdge side)
     {
-      const auto& [a, b, c] = triangles[side / 3];
-      isContradicted = isContradicted || dot(normal, cross(positions[b] - positions[a],
-                                                       positions[c] - positions[a])) < 0.0;
+      isContradicted =
+        isContradicted || dot(normal, areaNormal(positions, triangles[side / 3])) < 0.0;
     });
   return isContradicted;
 }
