@@ -56,7 +56,7 @@ std::optional<FitRequest> fitRequestOf(const Options& options)
 
 void checkOptions(const Options& options, OptionNaming naming)
 {
-  forEachOption(options,
+  forEveryOption(
     [&](const auto& option)
     {
       const auto value = options.*option.value;

@@ -116,18 +116,25 @@ inline constexpr auto all = std::make_tuple(projection, normalMethod, dropGaps, 
 
 } // namespace option
 
+/// Calls visit(option) for all options.
+template <class Visitor>
+void forEveryOption(const Visitor& visit)
+{
+  std::apply([&](const auto&... each) { (visit(each), ...); }, option::all);
+}
+
 /// Calls visit(option) for each option that has an effect.
 template <class Visitor>
 void forEachOption(const Options& options, const Visitor& visit)
 {
-  const auto visitOne = [&](const auto& option)
-  {
-    if (option.concerns(options.triangles))
+  forEveryOption(
+    [&](const auto& option)
     {
-      visit(option);
-    }
-  };
-  std::apply([&](const auto&... each) { (visitOne(each), ...); }, option::all);
+      if (option.concerns(options.triangles))
+      {
+        visit(option);
+      }
+    });
 }
 
 /// Translates an option's name above to its name in the program that uses the core.
@@ -138,7 +145,8 @@ inline std::string sameName(const char* name)
   return name;
 }
 
-/// @throws UsageError if an option is out of range, or does not go with another one
+/// @throws UsageError if an option is out of range, even one without an effect, or does not go with
+/// another one
 void checkOptions(const Options& options, OptionNaming naming = sameName);
 
 /// Each isovalue once, ascending. @throws UsageError if one is NaN

@@ -115,7 +115,7 @@ bool isInRange(const Report& report, double isovalue)
 
 /// Why an isovalue in the range has no surface, and the remedy.
 std::pair<Message::Codes, std::string> reasonOfEmptyIsovalue(
-  const Report& report, OptionNaming naming)
+  const Report& report, bool isInGaps, OptionNaming naming)
 {
   constexpr std::uint64_t fewest = 4; // of a tetrahedron
   const std::uint64_t used = report.samples - report.skippedCount();
@@ -124,7 +124,7 @@ std::pair<Message::Codes, std::string> reasonOfEmptyIsovalue(
     return { Message::TooFewSamples,
       "there are only " + std::to_string(used) + " samples. Add samples around the surface." };
   }
-  if (report.droppedInGaps > 0)
+  if (isInGaps)
   {
     return { Message::AllInGaps,
       "all of it is in gaps between samples. Turn " + naming(option::dropGaps.name) + " off." };
@@ -141,15 +141,16 @@ std::pair<Message::Codes, std::string> reasonOfEmptyIsovalue(
 }
 
 /// For isovalues in the range.
+/// @param isInGaps whether something was dropped there
 Message describeEmptyIsovalues(
-  const Report& report, const std::vector<double>& empty, OptionNaming naming)
+  const Report& report, const std::vector<double>& empty, bool isInGaps, OptionNaming naming)
 {
   if (empty.empty())
   {
     return {};
   }
   const std::string isovalues = join(empty, digitsFor(report, empty));
-  const auto [code, reason] = reasonOfEmptyIsovalue(report, naming);
+  const auto [code, reason] = reasonOfEmptyIsovalue(report, isInGaps, naming);
   return { "isovalues without points in " + report.array + ": " + isovalues,
     "No isosurface at " + isovalues + ": " + reason, Message::Warning, code };
 }
@@ -158,16 +159,19 @@ std::vector<Message> describeIsovalues(const Report& report, OptionNaming naming
 {
   std::vector<double> outside;
   std::vector<double> empty;
+  std::vector<double> inGaps;
   for (std::size_t i = 0; i < report.isovalues.size(); ++i)
   {
     const double value = report.isovalues[i];
     if (report.points[i] == 0 && report.least <= report.greatest)
     {
-      (isInRange(report, value) ? empty : outside).push_back(value);
+      std::vector<double>& inside = report.dropped[i] > 0 ? inGaps : empty;
+      (isInRange(report, value) ? inside : outside).push_back(value);
     }
   }
   return { describeIsovaluesOutside(report, outside),
-    describeEmptyIsovalues(report, empty, naming) };
+    describeEmptyIsovalues(report, inGaps, true, naming),
+    describeEmptyIsovalues(report, empty, false, naming) };
 }
 
 bool areMostUnprojected(const Report& report)
@@ -305,6 +309,7 @@ void SampleCounts::share(ProcessGroup& processes)
 Report::Report(const Options& options, const std::vector<double>& sortedIsovalues)
   : isovalues(sortedIsovalues)
   , points(sortedIsovalues.size(), 0)
+  , dropped(sortedIsovalues.size(), 0)
   , areTriangles(options.triangles)
   , areCapped(options.capping)
   , areProjected(options.projection != 0)
@@ -315,6 +320,11 @@ Report::Report(const Options& options, const std::vector<double>& sortedIsovalue
 std::uint64_t Report::pointCount() const
 {
   return std::accumulate(this->points.begin(), this->points.end(), std::uint64_t{ 0 });
+}
+
+std::uint64_t Report::droppedCount() const
+{
+  return std::accumulate(this->dropped.begin(), this->dropped.end(), std::uint64_t{ 0 });
 }
 
 void Report::countSamples(const IsosurfaceExtractor& extractor, const CloudCounts& cloud)
@@ -328,7 +338,7 @@ void Report::countSamples(const IsosurfaceExtractor& extractor, const CloudCount
 void Report::countSurface(std::size_t isovalue, const ExtractedIsosurface& surface)
 {
   this->points[isovalue] += surface.countHere();
-  this->droppedInGaps += surface.droppedInGaps;
+  this->dropped[isovalue] += surface.droppedInGaps;
   const auto isHere = [&](std::size_t i)
   { return surface.areGhosts.empty() || !surface.areGhosts[i]; };
   using Float = std::numeric_limits<float>;
@@ -365,10 +375,12 @@ void Report::add(const Report& other)
 {
   std::transform(this->points.begin(), this->points.end(), other.points.begin(),
     this->points.begin(), std::plus<>());
+  std::transform(this->dropped.begin(), this->dropped.end(), other.dropped.begin(),
+    this->dropped.begin(), std::plus<>());
   for (const auto count :
     std::initializer_list<std::uint64_t Report::*>{ &Report::unprojectedPoints,
-      &Report::innerCorners, &Report::cornersApart, &Report::droppedInGaps, &Report::beyondFloat,
-      &Report::samples, &Report::notFinite, &Report::excluded, &Report::withoutArray })
+      &Report::innerCorners, &Report::cornersApart, &Report::beyondFloat, &Report::samples,
+      &Report::notFinite, &Report::excluded, &Report::withoutArray })
   {
     this->*count += other.*count;
   }
@@ -383,8 +395,9 @@ void Report::add(const Report& other)
 void Report::share(ProcessGroup& processes)
 {
   processes.sum(this->points); // the number of isovalues is the same on all ranks
-  for (std::uint64_t* const count : { &this->unprojectedPoints, &this->innerCorners,
-         &this->cornersApart, &this->droppedInGaps, &this->beyondFloat })
+  processes.sum(this->dropped);
+  for (std::uint64_t* const count :
+    { &this->unprojectedPoints, &this->innerCorners, &this->cornersApart, &this->beyondFloat })
   {
     *count = processes.sum(*count);
   }

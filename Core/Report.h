@@ -90,6 +90,7 @@ struct Report : SampleCounts
 {
   std::vector<double> isovalues;        // ascending
   std::vector<std::uint64_t> points;    // by isovalue
+  std::vector<std::uint64_t> dropped;   // edges or tetrahedra in gaps, by isovalue
   bool areTriangles = false;            // whether points are connected
   bool areCapped = false;               // whether the surface is that of a body
   bool areProjected = false;            // whether fits were to move points
@@ -98,7 +99,6 @@ struct Report : SampleCounts
   std::uint64_t unprojectedPoints = 0;  // not moved by a fit
   std::uint64_t innerCorners = 0;       // of splats, see SplatCornerCounts
   std::uint64_t cornersApart = 0;       // corners that meet no others
-  std::uint64_t droppedInGaps = 0;      // dropped edges or tetrahedra
   std::uint64_t beyondFloat = 0;        // points with a position or radius that float cannot hold
   std::set<std::string> replacedArrays; // input arrays named like a computed one
   bool isPieceOfProcess = false;        // one of several processes without a controller
@@ -112,6 +112,7 @@ struct Report : SampleCounts
 
   /// Of all isovalues.
   std::uint64_t pointCount() const;
+  std::uint64_t droppedCount() const;
 
   /// Counts the samples of a loaded cloud, and their values.
   void countSamples(const IsosurfaceExtractor& extractor, const CloudCounts& cloud);

@@ -47,7 +47,7 @@ vtkIdType vtkScatteredContourFilter::GetNumberOfUnprojectedPoints() const
 
 vtkIdType vtkScatteredContourFilter::GetNumberOfDroppedInGaps() const
 {
-  return static_cast<vtkIdType>(this->Contouring->GetReport().droppedInGaps);
+  return static_cast<vtkIdType>(this->Contouring->GetReport().droppedCount());
 }
 
 vtkSmartPointer<vtkDataObject> vtkScatteredContourFilter::NewOutput(

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -81,6 +82,13 @@ public:
         UsageError::Array);
     }
     const std::size_t size = sizeOfType(array->type);
+    const std::int64_t most = std::numeric_limits<std::int64_t>::max() / array->components;
+    if (array->count > most / static_cast<std::int64_t>(size))
+    {
+      throw UsageError(this->Described + " has " + std::to_string(array->count) +
+                         " tuples. Pass no more than memory can hold.",
+        UsageError::Array);
+    }
     this->ComponentStride =
       array->component_stride == 0 ? size : static_cast<std::uint64_t>(array->component_stride);
     this->Stride = array->stride == 0

@@ -33,7 +33,7 @@ namespace
 /// The message of this thread's last failed call.
 thread_local std::string lastError;
 
-/// Allocates nothing, in case memory is exhausted.
+/// Allocates nothing but, on a thread's first failure, its message.
 isopoint_status fail(isopoint_status status, std::string& message)
 {
   lastError.swap(message);
@@ -179,6 +179,22 @@ void forEachMember(const Visitor& visit)
   visit(&C::minimum_piece_size, &Core::minimumPieceSize);
 }
 
+/// The name of an option that is on or off.
+std::string switchName(bool isopoint::Options::*value)
+{
+  std::string name =
+    value == &isopoint::Options::triangles ? "triangles" : "keep_tetrahedra"; // of no property
+  isopoint::forEveryOption(
+    [&](const auto& option)
+    {
+      if constexpr (std::is_same_v<decltype(option.value), bool isopoint::Options::*>)
+      {
+        name = option.value == value ? memberName(option.name) : name;
+      }
+    });
+  return name;
+}
+
 /// @param given null for the defaults, or options of any version 1.x
 /// @throws UsageError if one is unknown or out of range
 isopoint::Options optionsFrom(const isopoint_options* given)
@@ -196,16 +212,18 @@ isopoint::Options optionsFrom(const isopoint_options* given)
     {
       using T = std::decay_t<decltype(options.*option)>;
       options.*option = static_cast<T>(all.*member);
-      if (std::is_same_v<T, bool> && all.*member != 0 && all.*member != 1)
+      if constexpr (std::is_same_v<T, bool>)
       {
-        throw UsageError("An option that is 0 or 1 is " + std::to_string(all.*member) +
-                           ". Use 0 for off and 1 for on.",
-          UsageError::Option);
+        if (all.*member != 0 && all.*member != 1)
+        {
+          throw UsageError(switchName(option) + " is " + std::to_string(all.*member) +
+                             ". Use 0 for off and 1 for on.",
+            UsageError::Option);
+        }
       }
     });
-  options = isopoint::effectiveOptions(options);
   isopoint::checkOptions(options, memberName);
-  return options;
+  return isopoint::effectiveOptions(options);
 }
 
 /// @param threads maximum number, or 0 for all cores
@@ -248,8 +266,8 @@ isopoint::Execution executionOnThreads(std::int32_t threads)
 /// What a program passes to isopoint_set_callbacks().
 struct Callbacks
 {
-  void (*Progress)(void* user, double fraction) = nullptr;
-  int (*Cancels)(void* user) = nullptr;
+  isopoint_progress_callback Progress = nullptr;
+  isopoint_cancel_callback Cancels = nullptr;
   void* User = nullptr;
 
   void addTo(isopoint::Execution& execution) const
@@ -275,9 +293,11 @@ std::vector<isopoint::Message> describe(const isopoint::Report& report)
   std::vector<isopoint::Message> messages = isopoint::describeReport(report, memberName);
   if (messages.empty() && report.samples == report.skippedCount())
   {
-    messages.push_back(
-      { "no samples", "No isosurface: no sample takes part. Pass samples that are not excluded.",
-        isopoint::Message::Warning, isopoint::Message::NoSamples });
+    messages.push_back({ "no samples",
+      report.samples == 0 ? "No isosurface: there are no samples. Pass some."
+                          : "No isosurface: no sample takes part. Pass samples"
+                            " that are not excluded.",
+      isopoint::Message::Warning, isopoint::Message::NoSamples });
   }
   return messages;
 }
@@ -398,7 +418,7 @@ isopoint_status isopoint_set_threads(isopoint_extractor* extractor, int32_t thre
 }
 
 isopoint_status isopoint_set_callbacks(isopoint_extractor* extractor,
-  void (*progress)(void* user, double fraction), int (*cancels)(void* user), void* user)
+  isopoint_progress_callback progress, isopoint_cancel_callback cancels, void* user)
 {
   return runOn(extractor, "extractor", [&]() { extractor->Calls = { progress, cancels, user }; });
 }
@@ -504,7 +524,7 @@ isopoint_status isopoint_set_neighborhoods_threads(
 }
 
 isopoint_status isopoint_set_neighborhoods_callbacks(isopoint_neighborhoods* neighborhoods,
-  void (*progress)(void* user, double fraction), int (*cancels)(void* user), void* user)
+  isopoint_progress_callback progress, isopoint_cancel_callback cancels, void* user)
 {
   return runOn(neighborhoods, "neighborhoods",
     [&]() {
@@ -597,7 +617,7 @@ isopoint_status isopoint_set_surface_threads(isopoint_surface* surface, int32_t 
 }
 
 isopoint_status isopoint_set_surface_callbacks(isopoint_surface* surface,
-  void (*progress)(void* user, double fraction), int (*cancels)(void* user), void* user)
+  isopoint_progress_callback progress, isopoint_cancel_callback cancels, void* user)
 {
   return runOn(surface, "surface",
     [&]() {
@@ -660,8 +680,8 @@ isopoint_status isopoint_join_messages(isopoint_surface* surface, const isopoint
       {
         throw UsageError("The surfaces have different isovalues. Extract them at the same.");
       }
-      if (surface == other || !areSame(surface->options, other->options) ||
-          surface->report.samples == 0 || other->report.samples == 0)
+      if (surface == other || !areSame(surface->options, other->options) || !surface->isExtracted ||
+          !other->isExtracted)
       {
         throw UsageError("Messages are joined of two surfaces, extracted with the same options.");
       }
@@ -679,7 +699,7 @@ int64_t isopoint_get_unprojected_count(const isopoint_surface* surface)
 
 int64_t isopoint_get_dropped_count(const isopoint_surface* surface)
 {
-  return surface ? static_cast<int64_t>(surface->report.droppedInGaps) : 0;
+  return surface ? static_cast<int64_t>(surface->report.droppedCount()) : 0;
 }
 
 isopoint_status isopoint_get_array(

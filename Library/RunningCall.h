@@ -26,9 +26,8 @@ public:
     if (wasForkedMeanwhile())
     {
       --Count;
-      throw UsageError(
-        "This process was forked during a call of another thread: it cannot contour. Fork between"
-        " calls, or start processes anew, in Python by the method \"spawn\".",
+      throw UsageError("This process was forked during a call: it cannot contour. Fork between"
+                       " calls, or start processes anew, in Python by the method \"spawn\".",
         UsageError::Fork);
     }
   }

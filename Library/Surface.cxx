@@ -109,6 +109,7 @@ isopoint_surface::isopoint_surface(const isopoint::Execution& making,
   bool areFloatPositions, const isopoint::Report& counts, std::size_t samples)
   : execution(making)
   , options(chosen)
+  , isExtracted(true)
   , report(counts)
   , SampleCount(samples)
   , Isosurfaces(std::move(surfaces))

@@ -44,6 +44,7 @@ struct isopoint_surface
 
   isopoint::Execution execution; // of all calls on this surface
   isopoint::Options options;     // effective ones
+  bool isExtracted = false;      // rather than made of arrays
   std::vector<isopoint::Message> messages;
   isopoint::Report report;
 

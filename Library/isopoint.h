@@ -24,11 +24,13 @@
  * Threads: use each extractor, surface and isopoint_neighborhoods on one thread at a time. Different
  * objects, also an extractor and what it made, may be used on different threads at the same time.
  * Results do not depend on the number of threads. A process forked from one that used several
- * threads uses one. In a process forked during a call, all calls fail.
+ * threads uses one. In a process forked during a call, later calls fail that could wait for locks.
  *
  * Errors: functions that can fail return an isopoint_status, and isopoint_get_error() returns the
  * cause and the remedy. Pointers to objects are written only on success; memory for numbers may be
- * partly written after a failure. No function ends the program, not even if memory is exhausted.
+ * partly written after a failure. Memory for numbers is aligned as their type and overlaps no other
+ * argument. Lack of memory is an error like others, but the first failure of a thread takes a little
+ * memory for its message.
  *
  * Versions: a program runs with each library 1.x that has the functions it calls, whichever version
  * 1.x of this header it was compiled with. Names, numbers, parameters and structures stay, but later
@@ -82,7 +84,8 @@ typedef enum isopoint_status
   ISOPOINT_INVALID_ARRAY = 5,  /* the type, size or memory of an isopoint_array */
   ISOPOINT_INVALID_OPTION = 6, /* unknown, out of range, or not together with another one */
   ISOPOINT_INVALID_ORDER = 7,  /* another call has to come first */
-  ISOPOINT_FORKED = 8          /* this process was forked during a call */
+  ISOPOINT_FORKED = 8,         /* this process was forked during a call */
+  ISOPOINT_LAST_STATUS = 0x7fffffff /* of no call: makes room for later ones */
 } isopoint_status;
 
 /* The types of numbers in arrays. */
@@ -142,6 +145,8 @@ typedef enum isopoint_precision
  * docs/properties.md has all details. */
 typedef struct isopoint_options
 {
+  /* All options have to be within their ranges; those of points have no effect on triangles, and
+   * the other way round. */
   uint64_t size;                     /* of this struct, in bytes */
   int32_t triangles;                 /* 0: points; 1: triangles. Default: 0 */
   int32_t projection;                /* an isopoint_projection: how points move. Default: CUBIC */
@@ -198,15 +203,20 @@ ISOPOINT_API const char* isopoint_get_error(void);
  * that an MPI launcher started on this machine. Without oneTBB, or if it fails, one thread runs. */
 ISOPOINT_API isopoint_status isopoint_set_threads(isopoint_extractor* extractor, int32_t threads);
 
+/* Callbacks: see isopoint_set_callbacks(). They have to return, not by exceptions or longjmp(). */
+typedef void (*isopoint_progress_callback)(void* user, double fraction);
+typedef int (*isopoint_cancel_callback)(void* user);
+
 /* Sets callbacks, or removes them with null, the default. They run on the thread of the call and
  * must not use its extractor, surface or neighborhoods. They apply to calls that load, extract or
- * probe. Surfaces and neighborhoods made afterwards keep them, so `user` must outlive these, unless
+ * probe. Surfaces and neighborhoods made afterwards keep them, and call them on the threads of their
+ * own calls, possibly at the same time. So `user` must outlive these, unless
  * isopoint_set_surface_callbacks() or isopoint_set_neighborhoods_callbacks() replaces them.
  * @param progress(user, fraction) the share of the call that is done, 0 to 1, ascending
  * @param cancels(user) called every few tens of milliseconds; nonzero ends the call, which returns
  * ISOPOINT_CANCELED and leaves the extractor usable */
 ISOPOINT_API isopoint_status isopoint_set_callbacks(isopoint_extractor* extractor,
-  void (*progress)(void* user, double fraction), int (*cancels)(void* user), void* user);
+  isopoint_progress_callback progress, isopoint_cancel_callback cancels, void* user);
 
 /* Sets the name of the values, such as "temperature", for messages and their causes. It is copied.
  * @param name null or "", the default: messages say "the array" */
@@ -283,7 +293,8 @@ typedef enum isopoint_place_flag
 } isopoint_place_flag;
 
 /* Interpolates arrays at places: a fit to the nearest samples, its value and its gradient. Search
- * and weights are computed once for all arrays. The values of isopoint_set_samples() take no part.
+ * and weights are computed once for all arrays. The values of isopoint_set_samples() take no part,
+ * but samples that it skipped, also for their values, do not exist: pass null values to keep them.
  *
  * Outside: a place is outside if the 27 nearest samples are on one side of it, or if the nearest one
  * is farther than 0.9 times the distance between this one and the eighth nearest to it. A place at a
@@ -333,8 +344,8 @@ ISOPOINT_API isopoint_status isopoint_find_neighborhoods(isopoint_extractor* ext
 ISOPOINT_API isopoint_status isopoint_set_neighborhoods_threads(
   isopoint_neighborhoods* neighborhoods, int32_t threads);
 ISOPOINT_API isopoint_status isopoint_set_neighborhoods_callbacks(
-  isopoint_neighborhoods* neighborhoods, void (*progress)(void* user, double fraction),
-  int (*cancels)(void* user), void* user);
+  isopoint_neighborhoods* neighborhoods, isopoint_progress_callback progress,
+  isopoint_cancel_callback cancels, void* user);
 
 /* isopoint_probe() for the places of neighborhoods, with the same results. */
 ISOPOINT_API isopoint_status isopoint_probe_neighborhoods(
@@ -352,10 +363,10 @@ typedef struct isopoint_weights
   const double* gradients;        /* three each: in the gradient */
 } isopoint_weights;
 
-/* The weights of neighborhoods, computed at the first call; not with BLEND, which is not linear in
- * the values. Rows of places outside are empty with NUMBER, and have the nearest sample with
- * NEAREST. Samples whose value is not finite have weights, too. Its memory is valid until the
- * neighborhoods are destroyed. */
+/* The weights of neighborhoods, computed at the first call, in one thread and without callbacks; not
+ * with BLEND, which is not linear in the values. Rows of places outside are empty with NUMBER, and
+ * have the nearest sample with NEAREST. Samples whose value is not finite have weights, too. Its
+ * memory is valid until the neighborhoods are destroyed. */
 ISOPOINT_API isopoint_status isopoint_get_weights(
   isopoint_neighborhoods* neighborhoods, isopoint_weights* weights);
 
@@ -396,7 +407,7 @@ ISOPOINT_API isopoint_status isopoint_set_surface_threads(
  * to isopoint_interpolate(), isopoint_make_splat_mesh() and isopoint_average_at_splat_vertices(). See
  * isopoint_set_callbacks(). */
 ISOPOINT_API isopoint_status isopoint_set_surface_callbacks(isopoint_surface* surface,
-  void (*progress)(void* user, double fraction), int (*cancels)(void* user), void* user);
+  isopoint_progress_callback progress, isopoint_cancel_callback cancels, void* user);
 
 /* What a message is about. */
 typedef enum isopoint_message_code

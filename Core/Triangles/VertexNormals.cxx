@@ -83,19 +83,22 @@ Vector angleNormal(const std::vector<Vector>& positions,
   return sum;
 }
 
-/// Whether a triangle at a vertex is turned away from its normal.
-bool isContradicted(const std::vector<Vector>& positions,
+/// The least cosine between a normal of a vertex and those of the triangles there.
+double leastCosine(const std::vector<Vector>& positions,
   const std::vector<SurfaceTriangle>& triangles, const OutgoingHalfEdges& outgoing,
   std::size_t vertex, const Vector& normal)
 {
-  bool isContradicted = false;
+  double least = 1.0;
   outgoing.forEachAt(vertex,
     [&](HalfEdge side)
     {
-      isContradicted =
-        isContradicted || dot(normal, areaNormal(positions, triangles[side / 3])) < 0.0;
+      const Vector ofTriangle = areaNormal(positions, triangles[side / 3]);
+      if (hasDirection(ofTriangle))
+      {
+        least = std::min(least, dot(normal, directionOf(ofTriangle)));
+      }
     });
-  return isContradicted;
+  return least;
 }
 
 } // namespace
@@ -140,10 +143,14 @@ std::vector<Vector> vertexNormals(const Execution& execution, const SurfacePoint
     forEachIndex(execution, normals.size(),
       [&](std::size_t vertex)
       {
-        if (isContradicted(points.positions, triangles, outgoing, vertex, normals[vertex]))
+        const auto leastOf = [&](const Vector& normal)
+        { return leastCosine(points.positions, triangles, outgoing, vertex, normal); };
+        const double least = leastOf(normals[vertex]);
+        if (least < 0.0)
         {
           const Vector mean = angleNormal(points.positions, triangles, outgoing, vertex);
-          normals[vertex] = hasDirection(mean) ? directionOf(mean) : normals[vertex];
+          const bool isBetter = hasDirection(mean) && leastOf(directionOf(mean)) > least;
+          normals[vertex] = isBetter ? directionOf(mean) : normals[vertex];
         }
       });
   }

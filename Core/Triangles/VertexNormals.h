@@ -22,7 +22,7 @@ std::vector<Vector> areaNormals(const Execution& execution, const std::vector<Ve
 /// means. Fits with creases do not fail.
 /// @param isClosed whether the surface is that of a body, whose faces share vertices where it is
 /// thin: where a triangle is turned away from the normal of a vertex, the mean weighted by angles
-/// replaces it
+/// replaces it if none is turned farther away from that
 /// @throws std::bad_alloc, Aborted
 std::vector<Vector> vertexNormals(const Execution& execution, const SurfacePoints& points,
   const std::vector<SurfaceTriangle>& triangles, bool areOfField, bool isClosed);

@@ -81,7 +81,7 @@ bool isOutermost(const isopoint::Report& report)
 std::string vtkIsopointSlicing::WhyEmpty(isopoint::OptionNaming naming) const
 {
   const isopoint::Report& report = this->Report;
-  const std::string whyNoTetrahedra = report.droppedInGaps > 0
+  const std::string whyNoTetrahedra = report.droppedCount() > 0
                                         ? "all of it is in gaps between samples. Turn " +
                                             naming(isopoint::option::dropGaps.name) + " off."
                                         : "the samples are in one plane, or fewer than four.";

@@ -144,6 +144,8 @@ def isovalues_of(isovalues: Union[float, Iterable[float]]) -> list[float]:
     elif hasattr(isovalues, "__iter__") and not isinstance(isovalues, np.ndarray):
         isovalues = list(isovalues)
     values = np.atleast_1d(np.asarray(isovalues))
-    if values.size and values.dtype.kind not in "fiub":
+    if values.dtype == object and all(isinstance(value, int) for value in values.ravel()):
+        raise ValueError("an isovalue is beyond the range of float64")
+    if values.size and values.dtype.kind not in "fiu":
         raise TypeError(f"isovalues are of the type {values.dtype}, not numbers")
     return values.ravel().astype(np.float64).tolist()

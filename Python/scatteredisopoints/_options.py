@@ -82,6 +82,8 @@ def make_probe_options(method: Any, outside: Any) -> ProbeOptions:
     """Raises ValueError for invalid values."""
     options = ProbeOptions()
     is_number = isinstance(method, (int, np.integer)) and not isinstance(method, bool)
+    if is_number and method not in CONSTANTS["method"].values():
+        raise ValueError(f"method cannot be {method!r}: it is {', '.join(CONSTANTS['method'])}")
     options.method = number_of("method", method if is_number else constant("method", str(method)), options.method)
     if outside is None:
         options.outside = _library.OUTSIDE_EXTRAPOLATE

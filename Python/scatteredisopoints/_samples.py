@@ -211,7 +211,9 @@ class Samples:
         if self._held != _VALUES[sign] and self._values is not None:
             numbers = readable("values", as_numpy(self._values))
             if sign < 0:
-                numbers = -(numbers if numbers.dtype == np.float32 else numbers.astype(np.float64, copy=False))
+                is_narrow = numbers.dtype.kind in "iu" and numbers.dtype.itemsize < 8
+                wide = np.int64 if is_narrow else numbers.dtype if numbers.dtype == np.float32 else np.float64
+                numbers = -numbers.astype(wide, copy=False)
             self._hold(_VALUES[sign], numbers, [self._excluded, self._masked], callbacks)
 
     def _held_range(self) -> tuple[float, float]:

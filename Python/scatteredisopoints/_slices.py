@@ -92,7 +92,9 @@ def arrays_of(samples: Samples, arrays: Any) -> dict[str, Any]:
     else:
         return {**({} if samples._values is None else {samples._maker.scalars or "values": samples._own_values()}),
                 **(samples._arrays or {})}
-    return {name: samples._numbers_of(array, str(name)) for name, array in many.items()}
+    if not all(isinstance(name, str) for name in many):
+        raise TypeError("arrays are a mapping of names, which are strings, to arrays")
+    return {name: samples._numbers_of(array, name) for name, array in many.items()}
 
 
 def _center_of_bounds(samples: Samples) -> np.ndarray:

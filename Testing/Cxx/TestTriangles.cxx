@@ -332,6 +332,44 @@ TEST(Triangles, OfThinBodiesHaveNormalsThatNoneContradicts)
   EXPECT_EQ(contradictions(false, true), 0);
 }
 
+/// No vertex gets a normal that is turned farther from a triangle than before, and many a better
+/// one.
+TEST(Triangles, OfThinBodiesGetNoWorseNormals)
+{
+  const Cloud cloud = withValuesOf(clouds::uniform(20000, 31), distanceFromSphere);
+  const ExtractedIsosurface extracted = clouds::extracted(cloud, requestOf(0.0));
+  std::vector<Vector> positions = extracted.surface.positions;
+  for (Vector& position : positions)
+  {
+    position[2] *= 0.003;
+  }
+  const std::vector<LocalFit> fits(positions.size());
+  const auto leastCosines = [&](bool isClosed)
+  {
+    const std::vector<Vector> normals = vertexNormals({},
+      { positions, extracted.surface.decreasingEdges, fits }, extracted.triangles, false, isClosed);
+    std::vector<double> least(positions.size(), 1.0);
+    for (const SurfaceTriangle& triangle : extracted.triangles)
+    {
+      for (const std::size_t corner : triangle)
+      {
+        least[corner] =
+          std::min(least[corner], dot(normals[corner], directionOf(normalOf(positions, triangle))));
+      }
+    }
+    return least;
+  };
+  const std::vector<double> before = leastCosines(false);
+  const std::vector<double> after = leastCosines(true);
+  int betterCount = 0;
+  for (std::size_t i = 0; i < after.size(); ++i)
+  {
+    EXPECT_GE(after[i], before[i] - 1e-12) << i;
+    betterCount += after[i] > before[i] + 1e-3 ? 1 : 0;
+  }
+  EXPECT_GT(betterCount, 20);
+}
+
 /// At the rim of an unevenly sampled cloud fits extrapolate, and some fail.
 TEST(Triangles, HaveNormalsAsTheyLookAtTheRim)
 {

@@ -12,7 +12,8 @@ import sys
 MOST_PLACES = 5
 
 root = pathlib.Path(sys.argv[1])
-options = re.findall(r"inline constexpr \w+ \w+\{ \"(\w+)\", &Options::", (root / "Core/Options.h").read_text())
+listed = re.search(r"all = std::make_tuple\((.*?)\)", (root / "Core/Options.h").read_text(), re.DOTALL)[1]
+options = re.findall(r"\w+", listed)
 
 
 def code_of(path):

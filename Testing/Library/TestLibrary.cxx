@@ -545,10 +545,12 @@ TEST(Library, InvalidOptionsAreErrors)
   for (const std::int32_t value : { -1, 2, std::numeric_limits<std::int32_t>::min() })
   {
     const std::string word = std::to_string(value);
-    expectInvalidOptions([value](auto& o) { o.triangles = value; }, word);
-    expectInvalidOptions([value](auto& o) { o.keep_tetrahedra = value; }, word);
-    expectInvalidOptions([value](auto& o) { o.regularize = value; }, word);
-    expectInvalidOptions([value](auto& o) { o.keep_hull_slivers = value; }, word);
+    expectInvalidOptions([value](auto& o) { o.triangles = value; }, "triangles is " + word);
+    expectInvalidOptions(
+      [value](auto& o) { o.keep_tetrahedra = value; }, "keep_tetrahedra is " + word);
+    expectInvalidOptions([value](auto& o) { o.regularize = value; }, "regularize is " + word);
+    expectInvalidOptions(
+      [value](auto& o) { o.keep_hull_slivers = value; }, "keep_hull_slivers is " + word);
   }
   expectInvalidOptions(
     [](auto& o)
@@ -557,6 +559,15 @@ TEST(Library, InvalidOptionsAreErrors)
       o.projection = ISOPOINT_PROJECTION_CREASE;
     },
     "capping has no creases");
+  // Also options that have no effect are checked.
+  expectInvalidOptions(
+    [](auto& o)
+    {
+      o.triangles = 1;
+      o.angle = std::nan("");
+    },
+    "angle is nan");
+  expectInvalidOptions([](auto& o) { o.minimum_piece_size = -1.0; }, "minimum_piece_size is -1");
   // No more is written than the caller has.
   std::array<unsigned char, sizeof(isopoint_options)> bytes;
   bytes.fill(0xff);
@@ -879,6 +890,8 @@ TEST(Library, MessagesAreJoined)
   EXPECT_EQ(isopoint_get_message(joined.get(), 2, nullptr), nullptr);
   const Surface other = Extractor(Cloud()).extract({ 0.5 });
   expectInvalid(isopoint_join_messages(joined.get(), other.get()), "isovalues");
+  const Surface empty = Extractor(Cloud(0)).extract({ 0.7, 10.7, 99.0 });
+  EXPECT_EQ(isopoint_join_messages(joined.get(), empty.get()), ISOPOINT_OK);
   const Surface ofTriangles = Extractor(Cloud()).extract({ 0.7, 10.7, 99.0 }, withTriangles);
   const Surface ungapped = Extractor(Cloud()).extract(
     { 0.7, 10.7, 99.0 }, optionsWith([](auto& options) { options.drop_gaps = 0; }));
@@ -982,8 +995,11 @@ TEST(Library, ErrorsAreThoseOfTheThread)
 TEST(Library, ImpossibleSizesAreALackOfMemory)
 {
   const double number = 0.0;
-  const isopoint_array endless{ &number, ISOPOINT_DOUBLE, 3, std::int64_t{ 1 } << 60, 0, 0 };
+  isopoint_array endless{ &number, ISOPOINT_DOUBLE, 3, std::int64_t{ 1 } << 60, 0, 0 };
   isopoint_surface* created = nullptr;
+  expectInvalid(isopoint_create_surface(&endless, &endless, &endless, &endless, &created),
+    "no more than memory can hold", ISOPOINT_INVALID_ARRAY);
+  endless.count = std::int64_t{ 1 } << 57;
   EXPECT_EQ(isopoint_create_surface(&endless, &endless, &endless, &endless, &created),
     ISOPOINT_OUT_OF_MEMORY);
   expectContains(isopoint_get_error(), "Out of memory");

@@ -25,10 +25,11 @@ elif path.endswith(".dylib"):
     exported -= {"__dso_handle", "_mh_dylib_header"}  # the linker's
 else:
     exported = {line.split()[-1].split("@")[0] for line in printed("nm", "--dynamic", "--defined-only").splitlines()}
-    exported.discard("ISOPOINT_1")  # the version of the symbols
+    exported.discard("ISOPOINT_1.0")  # the version of the symbols
 if len(declared) < 15 or exported != declared:
     sys.exit(f"failed: exported but not declared {sorted(exported - declared)}, "
              f"declared but not exported {sorted(declared - exported)}")
+text = re.sub(r"typedef \w+ \(\*(\w+)\)", r"typedef \1", text)  # pointers to functions
 names = re.findall(r"\b(?:typedef|enum|struct|define)\s+(?:enum\s+|struct\s+)?(\w+)", text)
 foreign = [name for name in names if not re.match("isopoint_|ISOPOINT_|isopoint_h", name)
            and name not in ("enum", "struct")]

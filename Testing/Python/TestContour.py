@@ -219,7 +219,7 @@ class ContourTest(unittest.TestCase):
         kept = Samples(positions, distance)
         before = kept.contour(0.3)
         for values, dtype in ((distance, np.float64), (distance.astype(np.float32), np.float32),
-                              (np.rint(100 * distance).astype(np.uint8), np.float64)):
+                              (np.rint(100 * distance).astype(np.uint8), np.int64)):
             scale = 100.0 if values.dtype == np.uint8 else 1.0
             levels = [0.3 * scale, 0.2 * scale, 5.0 * scale]
             for options in (dict(triangles=True, capping=True), dict(triangles=True, compute_gradients=True), {}):
@@ -334,15 +334,31 @@ class ContourTest(unittest.TestCase):
             self.same(contour(positions, values, isovalues), data, expected)
         for arguments in ((positions, values), (data, None)):
             self.assertEqual(len(contour(*arguments, range(1, 0))), 0)
-        for wrong in (True, {0.3: 1}, "0.3", None):
+        for wrong in (True, [True, False], {0.3: 1}, "0.3", None):
             with self.assertRaisesRegex(TypeError, "isovalues are"):
                 contour(positions, values, wrong)
+        with self.assertRaisesRegex(ValueError, "an isovalue is beyond the range of float64"):
+            contour(positions, values, 2**1100)
+        for call in body, slice_samples:
+            with self.assertRaisesRegex(TypeError, "arrays are a mapping of names, which are strings"):
+                call(positions, {1: values})
         with self.assertWarnsRegex(RuntimeWarning, "No isosurface at .*: .* than .* and less than"):
             contour(positions, values, values.max(), triangles=True)
         with self.assertWarnsRegex(RuntimeWarning, "Choose isovalues that are less than"):
             contour(positions, values, values.max(), triangles=True, capping=True)
         with self.assertWarnsRegex(RuntimeWarning, "no tetrahedron of the samples crosses it. Of samples in one plane"):
             contour(positions * [1, 1, 0], values, -np.inf, triangles=True, capping=True)
+
+    def test_isovalues_in_gaps_and_others(self):
+        positions, values = samples(3000)
+        apart, steps = np.vstack([positions, positions + 100.0]), np.r_[values, values + 50.0]
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            contour(apart * [1, 1, 0], steps, [0.4, 25.0], triangles=True)
+            contour(apart, steps, [25.0, 70.0], triangles=True)
+        texts = [str(each.message) for each in caught]
+        self.assertRegex("\n".join(texts), "at 25: all of it is in gaps")
+        self.assertRegex("\n".join(texts), "at 70: the array is from")
 
     def test_arrays_that_are_not_finite(self):
         positions, values = samples()

@@ -216,7 +216,7 @@ class Calls(unittest.TestCase):
             with self.subTest(text), self.assertRaisesRegex(error, text):
                 probe(*arguments)
         for options, text in (
-                (dict(method="CUBIG"), "BLEND, CUBIC"), (dict(method=None), "BLEND, CUBIC"), (dict(method=9), "0 to 4"),
+                (dict(method="CUBIG"), "BLEND, CUBIC"), (dict(method=None), "BLEND, CUBIC"), (dict(method=9), "method cannot be 9: it is BLEND"),
                 (dict(outside="far"), '"nearest", or None'), (dict(outside=True), "a number"),
                 (dict(outside=10**400), "outside is out of range: .*1.8e308"),
                 (dict(threads=0), "threads"), (dict(gradient="yes"), "True or False"),

@@ -33,7 +33,8 @@ typedef enum isopoint_status
   ISOPOINT_INVALID_ARRAY = 5,
   ISOPOINT_INVALID_OPTION = 6,
   ISOPOINT_INVALID_ORDER = 7,
-  ISOPOINT_FORKED = 8
+  ISOPOINT_FORKED = 8,
+  ISOPOINT_LAST_STATUS = 0x7fffffff
 } isopoint_status;
 typedef enum isopoint_type
 {
@@ -104,8 +105,10 @@ ISOPOINT_API isopoint_extractor* isopoint_create_extractor(void);
 ISOPOINT_API void isopoint_destroy_extractor(isopoint_extractor* extractor);
 ISOPOINT_API const char* isopoint_get_error(void);
 ISOPOINT_API isopoint_status isopoint_set_threads(isopoint_extractor* extractor, int32_t threads);
+typedef void (*isopoint_progress_callback)(void* user, double fraction);
+typedef int (*isopoint_cancel_callback)(void* user);
 ISOPOINT_API isopoint_status isopoint_set_callbacks(isopoint_extractor* extractor,
-  void (*progress)(void* user, double fraction), int (*cancels)(void* user), void* user);
+  isopoint_progress_callback progress, isopoint_cancel_callback cancels, void* user);
 ISOPOINT_API isopoint_status isopoint_set_name(isopoint_extractor* extractor, const char* name);
 ISOPOINT_API isopoint_status isopoint_set_samples(isopoint_extractor* extractor,
   const isopoint_array* positions, const isopoint_array* values, const isopoint_array* excluded);
@@ -154,8 +157,8 @@ ISOPOINT_API isopoint_status isopoint_find_neighborhoods(isopoint_extractor* ext
 ISOPOINT_API isopoint_status isopoint_set_neighborhoods_threads(
   isopoint_neighborhoods* neighborhoods, int32_t threads);
 ISOPOINT_API isopoint_status isopoint_set_neighborhoods_callbacks(
-  isopoint_neighborhoods* neighborhoods, void (*progress)(void* user, double fraction),
-  int (*cancels)(void* user), void* user);
+  isopoint_neighborhoods* neighborhoods, isopoint_progress_callback progress,
+  isopoint_cancel_callback cancels, void* user);
 ISOPOINT_API isopoint_status isopoint_probe_neighborhoods(
   const isopoint_neighborhoods* neighborhoods, const isopoint_array* arrays, int64_t array_count,
   const isopoint_probe_result* results, uint8_t* flags);
@@ -177,7 +180,7 @@ ISOPOINT_API void isopoint_destroy_surface(isopoint_surface* surface);
 ISOPOINT_API isopoint_status isopoint_set_surface_threads(
   isopoint_surface* surface, int32_t threads);
 ISOPOINT_API isopoint_status isopoint_set_surface_callbacks(isopoint_surface* surface,
-  void (*progress)(void* user, double fraction), int (*cancels)(void* user), void* user);
+  isopoint_progress_callback progress, isopoint_cancel_callback cancels, void* user);
 typedef enum isopoint_message_code
 {
   ISOPOINT_MESSAGE_SKIPPED_SAMPLES = 1,
