@@ -253,7 +253,7 @@ typedef enum isopoint_method
   ISOPOINT_METHOD_BLEND = 0,     /* the mean of four fits, weighted by their estimated errors */
   ISOPOINT_METHOD_CUBIC = 1,     /* a polynomial of degree three: linear in the values */
   ISOPOINT_METHOD_QUADRATIC = 2, /* of degree two: linear in the values */
-  ISOPOINT_METHOD_AFFINE = 3,    /* of degree one: linear in the values, but no interpolation in cells */
+  ISOPOINT_METHOD_AFFINE = 3,    /* of degree one, by least squares: linear in the values */
   ISOPOINT_METHOD_NEAREST = 4    /* the nearest sample */
 } isopoint_method;
 
@@ -483,7 +483,7 @@ typedef enum isopoint_array_id
   ISOPOINT_ARRAY_SPLAT_VERTEX_NORMALS = 12, /* three float */
   ISOPOINT_ARRAY_SPLAT_VERTEX_POINTS = 13,  /* int64: the point of each vertex */
   ISOPOINT_ARRAY_SPLAT_TRIANGLES = 14,      /* three int64: vertices */
-  ISOPOINT_ARRAY_CAPS = 15                  /* uint8: with capping, whether each triangle is part of a cap */
+  ISOPOINT_ARRAY_CAPS = 15 /* uint8: with capping, whether each triangle is part of a cap */
 } isopoint_array_id;
 
 /* An array of a surface. Its memory is valid until the surface is destroyed or, for a splat mesh,
