@@ -69,7 +69,7 @@ struct Option
   T Options::*value;
   T least;
   T greatest;
-  Surfaces of = Any; // those that the option has an effect on
+  Surfaces of = Any; // the surfaces that the option affects
 
   constexpr bool concerns(bool triangles) const
   {

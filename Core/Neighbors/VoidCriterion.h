@@ -26,7 +26,7 @@ public:
   }
 
   /// As GapCriterion::drops().
-  /// @param spacing the greater of those at both ends
+  /// @param spacing the greater spacing of the two ends
   template <class TSample>
   bool drops(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& own,
     const TSample& other, double spacing) const

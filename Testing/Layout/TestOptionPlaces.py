@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Options are listed in few places, those that docs/architecture.md names: TestOptionPlaces.py SOURCE_DIR
+"""Options are listed only where docs/architecture.md says: TestOptionPlaces.py SOURCE_DIR
 
 A place that lists options names most of them in its code. A header and its source file are one place.
 """
