@@ -401,7 +401,7 @@ class Results(unittest.TestCase):
             surface.arrays["points"] = surface.arrays["values"]
             with self.assertRaisesRegex(ValueError, 'The name "points" is that of something else in NPZ files: rename'):
                 surface.save(path)
-            with self.assertRaisesRegex(FileNotFoundError, "nowhere/a.ply'"):
+            with self.assertRaisesRegex(FileNotFoundError, r"nowhere\W+a.ply'"):
                 surface.save(f"{folder}/nowhere/a.ply")
             with self.assertRaisesRegex(ValueError, "the format of .*surface.xyz is unknown: there are .ply"):
                 surface.save(f"{folder}/surface.xyz")
