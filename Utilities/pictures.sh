@@ -9,8 +9,9 @@ usage()
 usage: $0 [DATA]
 Builds the plugin if necessary and makes the pictures of README.md and docs/ in place; look at each before
 you commit it. Those of real data need the folder DATA, with the files that Testing/ParaView/TestRealFiles.py
-lists; without it they stay as they are. The test Python.Wheel makes docs/surface.png, and says so if it changes; it leaves those of
-docs/gallery and pyvista_cloud.png in its folder pyvista.
+lists; without it they stay as they are. The test Python.Wheel makes docs/surface.png, and says so if it
+changes; it leaves those of docs/gallery and pyvista_cloud.png in its folder pyvista. docs/window.png is a
+picture of the screen.
 END
 }
 
@@ -45,7 +46,8 @@ draw()
 draw pvbatch "$root/Utilities/demo.py" "$plugin"
 draw pvbatch "$root/Benchmark/troubleshooting_pictures.py" "$plugin" "$root/docs/choosing"
 export PV_PLUGIN_PATH=${plugin%/*} # those above load the plugin themselves
-for name in amr_levels csv_table droplets filters heat in_situ_simulation particle_slice sharp_solid time_series vortices; do
+for name in amr_levels csv_table droplets filters heat in_situ_simulation particle_slice sharp_solid time_series \
+  vortices; do
   draw pvbatch "$root/Examples/$name.py"
 done
 for name in ray_traced_spheres sph_snapshot; do
