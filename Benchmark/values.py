@@ -43,9 +43,10 @@ class Ours:
         self.samples, self.options = Samples(positions, threads=threads), dict(method=method, outside=outside)
 
     def __call__(self, arrays, places, spacing=0):
-        found = self.samples.probe(places, dict(enumerate(arrays)), gradient=bool(spacing), **self.options)
-        values, gradients = found if spacing else (found, [None])
-        return np.stack(list(values.values())), gradients[0]
+        named = {str(number): array for number, array in enumerate(arrays)}
+        found = self.samples.probe(places, arrays=named, gradient=bool(spacing), **self.options)
+        values, gradients = found if spacing else (found, {"0": None})
+        return np.stack(list(values.values())), gradients["0"]
 
 
 # ---- Fields and samples

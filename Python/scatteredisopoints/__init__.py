@@ -17,16 +17,16 @@ from typing import TYPE_CHECKING, Any
 
 from . import _library
 # Type checkers take only names imported as themselves for exported.
+from ._functions import body as body
+from ._functions import contour as contour
+from ._functions import gradient as gradient
+from ._functions import probe as probe
+from ._functions import slice_samples as slice_samples
 from ._interpolator import Interpolator as Interpolator
 from ._isosurface import Isosurface as Isosurface
 from ._measures import Piece as Piece
 from ._samples import Samples as Samples
-from .contouring import body as body
-from .contouring import contour as contour
 from .plugin import load_plugin as load_plugin
-from .probing import gradient as gradient
-from .probing import probe as probe
-from .slicing import slice_samples as slice_samples
 
 __version__ = _library.version().decode()
 

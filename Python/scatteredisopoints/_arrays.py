@@ -124,6 +124,15 @@ def are_names(arrays: Any) -> bool:
     return isinstance(arrays, (list, tuple)) and len(arrays) > 0 and all(isinstance(name, str) for name in arrays)
 
 
+def by_name(arrays: Any) -> Mapping[str, Any]:
+    """Arrays by their names, for a mapping, a name, a list of names, or an array, which gets the name "values"."""
+    if isinstance(arrays, str) or are_names(arrays):
+        return {name: name for name in ([arrays] if isinstance(arrays, str) else arrays)}
+    if isinstance(arrays, Mapping) and not all(isinstance(name, str) for name in arrays):
+        raise TypeError("arrays are a mapping of names, which are strings, to arrays")
+    return arrays if isinstance(arrays, Mapping) else {"values": arrays}
+
+
 def further_arrays(arrays: Optional[Mapping[str, Any]], count: int) -> dict[str, np.ndarray]:
     """Arrays of the samples by name, except the values."""
     if arrays is None:
@@ -135,17 +144,17 @@ def further_arrays(arrays: Optional[Mapping[str, Any]], count: int) -> dict[str,
     return {name: column(name, array, count) for name, array in arrays.items()}
 
 
-def isovalues_of(isovalues: Union[float, Iterable[float]]) -> list[float]:
-    """One or several isovalues as a list, without masked ones."""
-    if isovalues is None or isinstance(isovalues, (str, bytes, bool, np.bool_, Mapping)):
-        raise TypeError(f"isovalues are {isovalues!r}, not numbers")
-    if isinstance(isovalues, np.ma.MaskedArray):
-        isovalues = isovalues.compressed()
-    elif hasattr(isovalues, "__iter__") and not isinstance(isovalues, np.ndarray):
-        isovalues = list(isovalues)
-    values = np.atleast_1d(np.asarray(isovalues))
+def levels_of(name: str, given: Union[float, Iterable[float]]) -> list[float]:
+    """One or several isovalues or offsets as a list, without masked ones."""
+    if given is None or isinstance(given, (str, bytes, bool, np.bool_, Mapping)):
+        raise TypeError(f"{name} are {given!r}, not numbers")
+    if isinstance(given, np.ma.MaskedArray):
+        given = given.compressed()
+    elif hasattr(given, "__iter__") and not isinstance(given, np.ndarray):
+        given = list(given)
+    values = np.atleast_1d(np.asarray(given))
     if values.dtype == object and all(isinstance(value, int) for value in values.ravel()):
-        raise ValueError("an isovalue is beyond the range of float64")
+        raise ValueError(f"{name} are beyond the range of float64")
     if values.size and values.dtype.kind not in "fiu":
-        raise TypeError(f"isovalues are of the type {values.dtype}, not numbers")
+        raise TypeError(f"{name} are of the type {values.dtype}, not numbers")
     return values.ravel().astype(np.float64).tolist()

@@ -12,9 +12,9 @@ import numpy as np
 from . import _library
 from ._isosurface import Isosurface
 from ._option_types import BodyOptions
-from ._options import hint, make_options, thread_count
+from ._options import check_names, make_options, thread_count
 from ._progress import Progress, part, shown_progress
-from ._slices import arrays_of, warn_of
+from ._slices import warn_of
 
 if TYPE_CHECKING:
     from ._samples import Samples
@@ -63,10 +63,8 @@ def make_body(samples: Samples, options: Mapping[str, Any], of_samples: Mapping[
 def body_of(samples: Samples, arrays: Any, threads: Optional[int], progress: Progress, options: Mapping[str, Any],
             stacklevel: int) -> Isosurface:
     """Samples.body()."""
-    for name in options:
-        if name not in OPTIONS:
-            raise TypeError(f"unknown option {name}: {hint(name, OPTIONS)}")
-    of_samples = arrays_of(samples, arrays)
+    check_names(options, OPTIONS)
+    of_samples = samples._arrays_of(arrays)
     with shown_progress(progress, "Finding the body") as report:
         made = make_body(samples, options, of_samples, threads, report)
     warn_of(samples, made.isosurface, made.skipped, arrays is None, made.describe_empty(), stacklevel + 1)

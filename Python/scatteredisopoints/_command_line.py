@@ -18,6 +18,8 @@ import numpy as np
 from . import __version__
 from ._arrays import as_numpy
 from ._isosurface import Isosurface
+from ._lines_and_grids import lattice, line_between
+from ._options import CONSTANTS
 from ._paths import PYTHON_PLUGIN
 from ._polydata import PolyDataMaker
 from ._progress import Progress, part
@@ -66,13 +68,13 @@ def contoured(given: argparse.Namespace, report: Progress) -> Isosurface:
 def body(given: argparse.Namespace, report: Progress) -> Isosurface:
     samples = Samples._of(read_samples(given.file, given.arrays, given.columns), given.threads,
                           progress=part(report, 0.0, 0.2))
-    return samples.body(given.arrays or None, progress=part(report, 0.2, 1.0), **dict(given.option))
+    return samples.body(arrays=given.arrays or None, progress=part(report, 0.2, 1.0), **dict(given.option))
 
 
 def sliced(given: argparse.Namespace, report: Progress) -> Isosurface:
     samples = Samples._of(read_samples(given.file, given.arrays, given.columns), given.threads,
                           progress=part(report, 0.0, 0.2))
-    return samples.slice(given.normal, given.origin, given.arrays or None, offsets=given.offsets,
+    return samples.slice(given.normal, given.origin, arrays=given.arrays or None, offsets=given.offsets,
                          interpolation=given.interpolation, progress=part(report, 0.2, 1.0), **dict(given.option))
 
 
@@ -83,11 +85,11 @@ def probed(given: argparse.Namespace, report: Progress) -> Isosurface:
         raise ValueError(f"{given.file} has no arrays of numbers to interpolate")
     places, found = places_of(given, as_numpy(samples.positions))
     kept = Samples._of(samples, given.threads, progress=part(report, 0.0, 0.3))
-    values = kept.probe(places, names, gradient=given.gradient, method=given.method, outside=given.outside,
+    values = kept.probe(places, arrays=names, gradient=given.gradient, method=given.method, outside=given.outside,
                         progress=part(report, 0.3, 1.0))
     values, gradients = values if given.gradient else (values, {})
     found.update(values, **{f"{name}_gradient": array for name, array in gradients.items()})
-    return Isosurface(places, None, found, {}, PolyDataMaker(normals=None))
+    return Isosurface(places, arrays=found, make_polydata=PolyDataMaker(normals=None))
 
 
 def places_of(given: argparse.Namespace, positions: np.ndarray) -> tuple[np.ndarray, dict[str, np.ndarray]]:
@@ -95,13 +97,11 @@ def places_of(given: argparse.Namespace, positions: np.ndarray) -> tuple[np.ndar
     if given.places:
         return as_numpy(read_samples(given.places).positions), {}
     if given.line:
-        shares = np.linspace(0, 1, given.resolution + 1)[:, None]
-        begin, end = np.array(given.line)
-        return (1 - shares) * begin + shares * end, {"Distance": shares[:, 0] * math.dist(begin, end)}
+        places, distances = line_between(*np.array(given.line), given.resolution)
+        return places, {"Distance": distances}
     if given.grid:
         finite = positions[np.isfinite(positions).all(axis=1)]
-        axes = map(np.linspace, finite.min(axis=0), finite.max(axis=0), given.grid)
-        return np.stack(np.meshgrid(*axes, indexing="ij"), -1).transpose(2, 1, 0, 3).reshape(-1, 3), {}
+        return lattice(list(map(np.linspace, finite.min(axis=0), finite.max(axis=0), given.grid))), {}
     return np.array(given.at), {}
 
 
@@ -119,7 +119,8 @@ def numbers(count: Optional[int] = None, kind: Any = float) -> Callable[[str], l
 
 def direction(text: str) -> Any:
     """The type of a direction."""
-    return text.strip() if text.strip() in ("x", "y", "z", "-x", "-y", "-z") else numbers(3)(text)
+    text = text.strip().lower()
+    return text if text in ("x", "y", "z", "-x", "-y", "-z") else numbers(3)(text)
 
 
 def positive_integer(text: str) -> int:
@@ -131,6 +132,7 @@ def positive_integer(text: str) -> int:
 
 def outside(text: str) -> Any:
     """The type of what places outside get."""
+    text = text.lower()
     return {"fit": None, "nearest": text}[text] if text in ("fit", "nearest") else float(text)
 
 
@@ -172,7 +174,7 @@ def make_parsers() -> tuple[argparse.ArgumentParser, dict[str, argparse.Argument
     beside = "FILE's name with _{}.ply, in this folder"
     added = command("contour", contoured, "Isosurfaces, as triangles or points.", beside.format("contour"),
                     "samples.csv temperature 300 350", "flow.vtu velocity:magnitude 0.5 -o surface.stl",
-                    "samples.npy value -1e-3 --points --option projection=CREASE_FIT")
+                    "samples.npy value -1e-3 --points --option projection=crease_fit")
     added.add_argument("array", metavar="ARRAY")
     added.add_argument("isovalues", metavar="ISOVALUE", nargs="+", type=float)
     added.add_argument("--points", action="store_true", help="points with normals and radii instead of triangles")
@@ -184,7 +186,7 @@ def make_parsers() -> tuple[argparse.ArgumentParser, dict[str, argparse.Argument
     added.add_argument("--normal", type=direction, default="x", help="x, y, z, -x, -y, -z, or numbers such as 1,1,0")
     added.add_argument("--origin", type=numbers(3), metavar="X,Y,Z", help="default: the center of the bounds")
     added.add_argument("--offsets", type=numbers(), default=[0.0], metavar="D,...", help="distances along the normal")
-    added.add_argument("--interpolation", choices=("fits", "linear", "nearest"), default="fits")
+    added.add_argument("--interpolation", type=str.lower, choices=("fits", "linear", "nearest"), default="fits")
     added = command("probe", probed, "Values at places.", "CSV to stdout", "samples.csv temperature --at 0,0,0.5",
                     "flow.vtu velocity --line 0,0,0 1,0,0 --resolution 100 -o line.csv",
                     "samples.npz --grid 50,50,50 --gradient -o grid.npz")
@@ -196,7 +198,7 @@ def make_parsers() -> tuple[argparse.ArgumentParser, dict[str, argparse.Argument
                         help="so many points along the axes of the bounds")
     added.add_argument("--resolution", type=positive_integer, metavar="N", default=1000, help="pieces of the line")
     added.add_argument("--gradient", action="store_true", help="gradients, too")
-    added.add_argument("--method", choices=("blend", "cubic", "quadratic", "affine", "nearest"), default="blend")
+    added.add_argument("--method", type=str.lower, choices=tuple(CONSTANTS["method"]), default="blend")
     added.add_argument("--outside", type=outside, metavar="VALUE", default=math.nan,
                        help="for places outside: a number, nearest or fit; default: nan")
     commands.add_parser("paraview", help="Ways to load the filters into ParaView.")
@@ -250,7 +252,7 @@ def main(arguments: list[str]) -> int:
         print(PARAVIEW, end="")
         return 0
     # A blank before negative numbers and normals: these are no options.
-    rest = [re.sub(r"^(?=-[\d.xyz])", " ", each) for each in arguments[1:]]
+    rest = [re.sub(r"^(?=-[\d.xyzXYZ])", " ", each) for each in arguments[1:]]
     given = commands[arguments[0]].parse_intermixed_args(rest)
     try:
         run(given)

@@ -16,6 +16,7 @@ from ._arrays import (
     CELL, FLOAT, POINT, are_names, as_numpy, module_of, package_of, positions_of, values_of)
 from ._ghosts import excluded_cells, excluded_points, ghosts_of
 from ._library import Message
+from ._lines_and_grids import lattice
 from ._polydata import PolyDataMaker
 
 # As in vtkDataSetAttributes::AttributeTypes.
@@ -382,7 +383,7 @@ def point_positions(leaf: Any) -> Any:
     if leaf.IsA("vtkImageData"):
         return _image_positions(leaf, [np.arange(low, high + 1.0) for low, high in _extent(leaf)])
     if leaf.IsA("vtkRectilinearGrid"):
-        return _lattice([as_numpy(axis).astype(np.float64) for axis in _coordinates(leaf)])
+        return lattice([as_numpy(axis).astype(np.float64) for axis in _coordinates(leaf)])
     points = leaf.GetPoints()
     return np.zeros((0, 3), np.float32) if points is None else points.GetData()
 
@@ -396,16 +397,10 @@ def _coordinates(grid: Any) -> tuple[Any, Any, Any]:
     return grid.GetXCoordinates(), grid.GetYCoordinates(), grid.GetZCoordinates()
 
 
-def _lattice(axes: list[np.ndarray]) -> np.ndarray:
-    """All positions with these coordinates, x fastest."""
-    z, y, x = np.meshgrid(*axes[::-1], indexing="ij")
-    return np.stack([x, y, z], axis=-1).reshape(-1, 3)
-
-
 def _image_positions(image: Any, indices: list[np.ndarray], origin: Any = None) -> np.ndarray:
     """Positions at continuous indices, equal to VTK's to the last bit. An origin replaces the image's."""
     matrix = image.GetIndexToPhysicalMatrix()
-    x, y, z = _lattice(indices).T
+    x, y, z = lattice(indices).T
     positions = np.empty((len(x), 3))
     for row in range(3):
         a, b, c, d = (matrix.GetElement(row, i) for i in range(4))
@@ -422,7 +417,7 @@ def _cell_centers(leaf: Any) -> np.ndarray:
             leaf, [np.arange(low, max(high, low + 1.0)) for low, high in _extent(leaf)], origin)
     if leaf.IsA("vtkRectilinearGrid"):
         axes = [as_numpy(axis).astype(np.float64) for axis in _coordinates(leaf)]
-        return _lattice([0.5 * axis[:-1] + 0.5 * axis[1:] if len(axis) > 1 else axis for axis in axes])
+        return lattice([0.5 * axis[:-1] + 0.5 * axis[1:] if len(axis) > 1 else axis for axis in axes])
     if leaf.GetNumberOfPoints() == 0:
         raise ValueError("The input has cells, but no points: its cells have no centers. Connect data with"
                          " points.")

@@ -3,7 +3,11 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+
+from ._options import switch
 
 
 def _divergence(of: np.ndarray) -> np.ndarray:
@@ -27,3 +31,18 @@ DERIVATIVES = {
     "vorticity": _vorticity,
     "qcriterion": _q_criterion}
 """Functions of gradients of shape (n, c, 3), by names of PyVista. All but the gradient need vectors."""
+
+
+def names_of_derivatives(*flags: Any) -> dict[str, str]:
+    """The names of the arrays with DERIVATIVES, in this order: of each, True stands for its own name, None and False
+    for none. Raises ValueError for other values, and for equal names."""
+    named: dict[str, str] = {}
+    for derivative, flag in zip(DERIVATIVES, flags):
+        name = flag if isinstance(flag, str) else derivative if flag is not None and switch(derivative, flag) else None
+        if name == "":
+            raise ValueError(f'{derivative} cannot be "": give the name of its array, or True')
+        for other in (other for other in named if named[other] == name):
+            raise ValueError(f'{other} and {derivative} cannot both be named "{name}": give each its own name')
+        if name is not None:
+            named[derivative] = name
+    return named

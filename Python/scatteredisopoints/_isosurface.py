@@ -16,6 +16,7 @@ from . import _library
 from ._arrays import column, readable
 from ._measures import Measures, Piece, measure
 from ._options import number_of, thread_count
+from ._polydata import PolyDataMaker
 from ._progress import Progress, shown_progress
 
 
@@ -39,34 +40,30 @@ class Isosurface:
     cell_arrays: Mapping[str, np.ndarray]
     """Arrays of the triangles by name: with capping IsCap, 1 in caps and 0 in the isosurface."""
 
-    engine: str
-    """What extracted it: "C library" or "compiled filters". Both give the same bytes."""
-
     def __init__(
         self,
         points: np.ndarray,
-        triangles: Optional[np.ndarray],
-        arrays: dict[str, np.ndarray],
-        splat_shapes: Mapping[str, np.ndarray],
-        make_polydata: Callable[[Isosurface], Any],
-        polydata: Any = None,
-        threads: Optional[int] = None,
+        *,
+        triangles: Optional[np.ndarray] = None,
+        arrays: Optional[dict[str, np.ndarray]] = None,
+        splat_shapes: Optional[Mapping[str, np.ndarray]] = None,
         cell_arrays: Optional[Mapping[str, np.ndarray]] = None,
+        make_polydata: Callable[[Isosurface], Any] = PolyDataMaker(),
+        threads: Optional[int] = None,
         levels: Iterable[float] = (math.nan,),
         isovalues: Optional[np.ndarray] = None,
         is_capped: bool = False,
     ):
         self.points = points
         self.triangles = triangles
-        self.arrays = arrays
-        self.splat_shapes = splat_shapes
+        self.arrays = arrays or {}
+        self.splat_shapes = splat_shapes or {}
         self.cell_arrays = cell_arrays or {}
         self._make_polydata = make_polydata
-        self._polydata = polydata
-        self.engine = "C library" if polydata is None else "compiled filters"
+        self._polydata: Any = None
         self._threads = threads
         self._levels = sorted({*levels})
-        self._isovalues = isovalues  # of points; None for one level
+        self._isovalues = isovalues  # of points; None without
         self._is_capped = is_capped
         self._measures: Optional[Measures] = None
 
@@ -118,14 +115,7 @@ class Isosurface:
         ----------
         path
             Its ending says the format: .ply, .stl, .obj, .npz or .csv; with PyVista also .vtk, .vtp and .vtu, and with
-            meshio its own.
-
-        Raises
-        ------
-        ValueError
-            If no installed package writes this format.
-        OSError
-            If the file cannot be written.
+            meshio its own. Raises ValueError if no installed package writes this format.
         """
         from ._writing import write_file, writer_for  # which imports this module
 
@@ -167,9 +157,6 @@ class Isosurface:
     def _measured(self) -> Measures:
         if self.triangles is None:
             raise ValueError("Points have no area: extract triangles.")
-        if len(self._levels) > 1 and self._isovalues is None:
-            raise ValueError("The isovalue of each triangle is unknown: with a controller, contour one isovalue at a"
-                             " time.")
         if self._measures is None:
             isovalues = np.full(len(self), self._levels[0]) if self._isovalues is None else self._isovalues
             self._measures = measure(self.points, self.triangles, isovalues, not self._is_capped)
@@ -200,14 +187,8 @@ class Isosurface:
 
         Returns
         -------
-        Triangles with normals and the arrays of the points. Real numbers are averaged where splats meet.
-
-        Raises
-        ------
-        ValueError
-            If there are no splats: for triangles, or if splats or normals were switched off.
-        MemoryError, KeyboardInterrupt
-            As :func:`contour` does.
+        Triangles with normals and the arrays of the points. Real numbers are averaged where splats meet. Raises
+        ValueError if there are no splats: for triangles, or if splats or normals were switched off.
         """
         with shown_progress(progress, "Making splats") as report:
             return self._splats(scale, threads, progress=report)
@@ -235,9 +216,8 @@ class Isosurface:
                   for name, array in self.arrays.items()}
         arrays["Normals"] = _library.view(surface, _library.SPLAT_VERTEX_NORMALS)
         return Isosurface(
-            _library.view(surface, _library.SPLAT_VERTICES),
-            _library.view(surface, _library.SPLAT_TRIANGLES), arrays, {}, self._make_polydata,
-            threads=threads)
+            _library.view(surface, _library.SPLAT_VERTICES), triangles=_library.view(surface, _library.SPLAT_TRIANGLES),
+            arrays=arrays, make_polydata=self._make_polydata, threads=threads)
 
     def __len__(self) -> int:
         return len(self.points)
@@ -262,6 +242,7 @@ def _at_vertices(surface: _library.Surface, array: np.ndarray, point_of_vertex, 
 def describe_not_finite(arrays: Mapping[str, np.ndarray]) -> Iterator[str]:
     """Messages about arrays of points with entries that are not finite, as gaps in data are."""
     for name, numbers in arrays.items():
-        if numbers.dtype.kind == "f" and not np.isfinite(numbers).all():
-            count = np.count_nonzero(~np.isfinite(numbers.reshape(len(numbers), -1)).all(axis=1))
+        is_finite = np.isfinite(numbers)
+        if not is_finite.all():
+            count = np.count_nonzero(~is_finite.reshape(len(numbers), -1).all(axis=1))
             yield f'"{name}" is not finite at {count} of {len(numbers)} points, as at samples beside them.'

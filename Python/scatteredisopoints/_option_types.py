@@ -68,12 +68,6 @@ class ContourOptions(OptionsOfPoints, OptionsOfTriangles, total=False):
     projection: Union[Constant, None]
 
 
-class OptionsOfContour(ContourOptions, total=False):
-    """Options of contour() alone."""
-
-    controller: Any
-
-
 OPTION_TYPES = get_type_hints(ContourOptions)
 """The type of each option of contour()."""
 

@@ -7,7 +7,7 @@ import difflib
 import math
 import operator
 import re
-from typing import Any, Collection, Mapping, Optional
+from typing import Any, Collection, Iterable, Mapping, Optional
 
 import numpy as np
 
@@ -15,13 +15,12 @@ from . import _library
 from ._library import Options, ProbeOptions
 from ._option_types import OPTION_TYPES, OptionsOfPoints, OptionsOfTriangles, SliceOptions
 
-# Names of constants by option; their numbers are those of isopoint.h.
+# Names of constants by option, in lower case; their numbers are those of isopoint.h.
 CONSTANTS = {
-    "projection": {"NO_PROJECTION": 0, "LINEAR_FIT": 1, "QUADRATIC_FIT": 2, "CUBIC_FIT": 3,
-                   "CREASE_FIT": 4},
-    "normal_method": {"AUTOMATIC_NORMALS": -1, "NORMALS_FROM_FIELD": 0, "NORMALS_FROM_PLANES": 1},
-    "method": {"BLEND": 0, "CUBIC": 1, "QUADRATIC": 2, "AFFINE": 3, "NEAREST": 4},
-    "output_points_precision": {"SINGLE_PRECISION": 0, "DOUBLE_PRECISION": 1, "DEFAULT_PRECISION": 2},
+    "projection": {"no_projection": 0, "linear_fit": 1, "quadratic_fit": 2, "cubic_fit": 3, "crease_fit": 4},
+    "normal_method": {"automatic_normals": -1, "normals_from_field": 0, "normals_from_planes": 1},
+    "method": {"blend": 0, "cubic": 1, "quadratic": 2, "affine": 3, "nearest": 4},
+    "output_points_precision": {"single_precision": 0, "double_precision": 1, "default_precision": 2},
 }
 
 _PARAMETERS = ("arrays", "isovalues", "progress", "threads", "triangles")  # of contour(), which are no options
@@ -38,17 +37,23 @@ def option_names(triangles: bool) -> list[str]:
     return sorted(name for name in OPTION_TYPES if name not in others and name != "gradient_direction")
 
 
-def constant(name: str, value: Any) -> Any:
-    """The number of a named constant; other values unchanged. The projection None is NO_PROJECTION. Raises
-    ValueError if the option has constants, but not this one."""
-    if name == "projection" and value is None:
-        value = "NO_PROJECTION"
-    if not isinstance(value, str) or name not in CONSTANTS:
-        return value
-    number = CONSTANTS[name].get(value.upper())
-    if number is None:
-        raise ValueError(f"{name} cannot be {value!r}: it is {', '.join(CONSTANTS[name])}")
-    return number
+def named(name: str, value: Any, choices: Mapping[str, Any]) -> Any:
+    """What a name in upper or lower case stands for. Raises ValueError if it is none of the choices."""
+    if not isinstance(value, str) or value.lower() not in choices:
+        raise ValueError(f"{name} cannot be {value!r}: it is {_listed(choices)}")
+    return choices[value.lower()]
+
+
+def _listed(names: Iterable[str]) -> str:
+    *others, last = (f'"{name}"' for name in names)
+    return f"{', '.join(others)} or {last}"
+
+
+def check_names(given: Iterable[str], names: Collection[str]) -> None:
+    """Raises TypeError for an option that is not among some."""
+    for name in given:
+        if name not in names:
+            raise TypeError(f"unknown option {name}: {hint(name, names)}")
 
 
 def make_options(triangles: bool, given: Mapping[str, Any]) -> Options:
@@ -66,25 +71,19 @@ def make_options(triangles: bool, given: Mapping[str, Any]) -> Options:
         elif name == "keep_tree":
             options.keep_tetrahedra = int(switch(name, value))
         else:
-            setattr(options, name, number_of(name, constant(name, value), getattr(options, name)))
+            setattr(options, name, number_of(name, value, getattr(options, name)))
     return options
 
 
 def direction_sign(direction: Any) -> int:
     """What values are multiplied by so that they decrease out of the body. Raises ValueError for invalid values."""
-    signs = {"descent": 1, "ascent": -1}
-    if str(direction).lower() not in signs:
-        raise ValueError(f'gradient_direction cannot be {direction!r}: it is "descent" or "ascent"')
-    return signs[str(direction).lower()]
+    return named("gradient_direction", direction, {"descent": 1, "ascent": -1})
 
 
 def make_probe_options(method: Any, outside: Any) -> ProbeOptions:
     """Raises ValueError for invalid values."""
     options = ProbeOptions()
-    is_number = isinstance(method, (int, np.integer)) and not isinstance(method, bool)
-    if is_number and method not in CONSTANTS["method"].values():
-        raise ValueError(f"method cannot be {method!r}: it is {', '.join(CONSTANTS['method'])}")
-    options.method = number_of("method", method if is_number else constant("method", str(method)), options.method)
+    options.method = number_of("method", method, options.method)
     if outside is None:
         options.outside = _library.OUTSIDE_EXTRAPOLATE
     elif isinstance(outside, str) and outside.lower() == "nearest":
@@ -99,9 +98,7 @@ def make_probe_options(method: Any, outside: Any) -> ProbeOptions:
 def make_slice_options(given: Mapping[str, Any]) -> Options:
     """The options of the isosurface that is a slice. Raises TypeError for unknown options and ValueError for invalid
     values."""
-    for name in given:
-        if name not in SliceOptions.__annotations__:
-            raise TypeError(f"unknown option {name}: {hint(name, SliceOptions.__annotations__)}")
+    check_names(given, SliceOptions.__annotations__)
     options = make_options(True, {**given, "projection": None, "compute_normals": False})
     options.keep_hull_slivers = 1
     return options
@@ -109,10 +106,7 @@ def make_slice_options(given: Mapping[str, Any]) -> Options:
 
 def method_of_slice(interpolation: Any) -> Optional[str]:
     """The method of probe() for the arrays of a slice; None: linear. Raises ValueError for invalid values."""
-    methods = {"fits": "BLEND", "linear": None, "nearest": "NEAREST"}
-    if str(interpolation).lower() not in methods:
-        raise ValueError(f'interpolation cannot be {interpolation!r}: it is "fits", "linear" or "nearest"')
-    return methods[str(interpolation).lower()]
+    return named("interpolation", interpolation, {"fits": "blend", "linear": None, "nearest": "nearest"})
 
 
 def thread_count(threads: Optional[int]) -> int:
@@ -153,19 +147,27 @@ def switch(name: str, value: Any) -> bool:
 
 
 def number_of(name: str, value: Any, default: Any) -> Any:
-    """Converts a value to the type of the default. Raises ValueError for values that are no numbers."""
+    """Converts a value to the type of the default, and the name of a constant to its number. The projection None is
+    "no_projection". Raises ValueError for other values."""
     if OPTION_TYPES.get(name) is bool:
         return int(switch(name, value))
+    constants = CONSTANTS.get(name, {})
+    kind = _listed(constants) if constants else "a real number" if isinstance(default, float) else "a whole number"
+    error = ValueError(f"{name} cannot be {value!r}: it is {kind}")
+    if name == "projection" and value is None:
+        value = "no_projection"
+    if isinstance(value, str):
+        value = constants.get(value.lower())
     try:
-        if isinstance(value, (bool, np.bool_, str)):
-            raise TypeError
+        if isinstance(value, (bool, np.bool_)):
+            raise error
         number = float(value) if isinstance(default, float) else operator.index(value)
     except (TypeError, ValueError):
-        kind = (", ".join(CONSTANTS[name]) if name in CONSTANTS else
-                "a real number" if isinstance(default, float) else "a whole number")
-        raise ValueError(f"{name} cannot be {value!r}: it is {kind}") from None
+        raise error from None
     except OverflowError:
         raise ValueError(f"{name} is out of range: float64 holds numbers up to 1.8e308") from None
+    if constants and number not in constants.values():
+        raise error
     if isinstance(number, int) and not -2**31 <= number < 2**31:
         raise ValueError(f"{name} is {value!r}, which is out of range.")
     return number

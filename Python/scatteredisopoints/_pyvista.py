@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import inspect
 import math
+import operator
 import threading
 import warnings
 import weakref
@@ -17,10 +18,11 @@ import pyvista as pv
 from . import _datasets, _library
 from ._arrays import CELL, POINT, are_names, package_of
 from ._bodies import body_of
-from ._derivatives import DERIVATIVES
-from ._grids import box_of, grid_in, line_between, names_of_derivatives
+from ._cuts import three_numbers
+from ._derivatives import DERIVATIVES, names_of_derivatives
+from ._lines_and_grids import box_of, grid_in, line_between
 from ._option_types import BodyOptions, ContourOptions, Unpack
-from ._options import hint, switch
+from ._options import check_names, named, switch
 from ._polydata import as_vtk
 from ._progress import Progress, shown_progress
 from ._samples import Samples
@@ -139,15 +141,6 @@ class ScatteredAccessor:
         -------
         pyvista.PolyData
             Closed triangles between samples, with their arrays.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> import pyvista as pv
-        >>> cloud = pv.PolyData(np.random.default_rng(1).random((20000, 3)))
-        >>> body = cloud.scattered.body()
-        >>> bool(body.is_manifold and 0.95 < body.volume < 1.0)
-        True
         """
         samples, arrays = self._samples_with(scalars, preference, progress_bar, threads, needs_arrays=False)
         return body_of(samples, None if scalars is None else arrays, threads, progress_bar, options,
@@ -161,7 +154,7 @@ class ScatteredAccessor:
         scale : float, default: 1.0
             Factor on the size of splats.
         threads : int, optional
-            Maximum number of threads. By default all available cores.
+            As in :meth:`contour`.
 
         Returns
         -------
@@ -172,11 +165,6 @@ class ScatteredAccessor:
         -----
         Filters that keep the cells of points, such as ``clip`` and ``threshold``, keep their splats. Points
         with only normals become octagons.
-
-        Examples
-        --------
-        >>> isopoints = cloud.scattered.contour([0.3], triangles=False)  # doctest: +SKIP
-        >>> isopoints.scattered.splats().plot(smooth_shading=True)  # doctest: +SKIP
         """
         polygons, problem = polygons_of(self._dataset, "Radius", 0.0, scale, threads=threads)
         if problem:
@@ -189,7 +177,7 @@ class ScatteredAccessor:
         scalars: Union[str, Sequence[str], np.ndarray, None] = None,
         *,
         gradient: bool = False,
-        method: str = "BLEND",
+        method: str = "blend",
         outside: Union[float, str, None] = math.nan,
         preference: str = "point",
         progress_bar: bool = False,
@@ -209,28 +197,14 @@ class ScatteredAccessor:
             slower than that of a derivative, as in :meth:`compute_derivative`.
         method, outside
             As in :func:`scatteredisopoints.probe`.
-        preference : str, default: "point"
-            Whether ``scalars`` names arrays of points (``"point"``) or cells (``"cell"``) if there are both.
-        progress_bar : bool, default: False
-            Display a progress bar, which requires tqdm or rich.
-        threads : int, optional
-            Maximum number of threads. By default all available cores.
+        preference, progress_bar, threads
+            As in :meth:`contour`.
 
         Returns
         -------
         pyvista.DataSet
             A shallow copy of ``where``, or a ``PolyData`` of points, with the arrays, which replace its own of the
             same names.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> import pyvista as pv
-        >>> cloud = pv.PolyData(np.random.default_rng(1).random((20000, 3)))
-        >>> cloud["height"] = cloud.points[:, 2]
-        >>> plane = pv.Plane(center=(0.5, 0.5, 0.5), i_size=0.5, j_size=0.5)
-        >>> bool(np.allclose(cloud.scattered.probe(plane, outside=None)["height"], 0.5))
-        True
         """
         return self._probe(where, scalars, gradient, method, outside, preference, progress_bar, threads)
 
@@ -258,7 +232,11 @@ class ScatteredAccessor:
         pyvista.PolyData
             The line, with the arrays and ``Distance`` from its begin.
         """
-        line, distances = line_between(pointa, pointb, resolution)
+        ends = three_numbers("pointa", pointa), three_numbers("pointb", pointb)
+        if not hasattr(resolution, "__index__") or operator.index(resolution) < 1:
+            raise ValueError(f"resolution cannot be {resolution!r}: it is a whole number, 1 or more")
+        points, distances = line_between(*ends, operator.index(resolution))
+        line = pv.PolyData(points, lines=[len(points), *range(len(points))])
         return self._probe(line, scalars, **_options_of_probe(options), computed={"Distance": distances})
 
     def to_grid(
@@ -288,9 +266,8 @@ class ScatteredAccessor:
         pyvista.ImageData
             The grid, with the arrays.
         """
-        data = self._checked("point")
-        box = box_of(_datasets.bounds_of(data).ravel() if bounds is None else bounds)
-        return self._probe(grid_in(box, dimensions, spacing), scalars, **_options_of_probe(options))
+        box = box_of(_datasets.bounds_of(self._checked()).ravel() if bounds is None else bounds)
+        return self._probe(pv.ImageData(**grid_in(box, dimensions, spacing)), scalars, **_options_of_probe(options))
 
     def slice(
         self,
@@ -315,7 +292,7 @@ class ScatteredAccessor:
         contour : bool, default: False
             Contour the slice.
         progress_bar : bool, default: False
-            Display a progress bar, which requires tqdm or rich.
+            As in :meth:`contour`.
         plane : pyvista.PolyData, optional
             Not supported: give ``normal`` and ``origin``.
         **options : dict, optional
@@ -330,16 +307,6 @@ class ScatteredAccessor:
         Notes
         -----
         A slice along the normal of the last one takes a fraction of its time.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> import pyvista as pv
-        >>> cloud = pv.PolyData(np.random.default_rng(1).random((20000, 3)))
-        >>> cloud["height"] = cloud.points[:, 2]
-        >>> section = cloud.scattered.slice("z", (0, 0, 0.3))
-        >>> bool(np.allclose(section.points[:, 2], 0.3))
-        True
         """
         if plane is not None:
             raise TypeError("plane is not supported: give its normal and its origin")
@@ -369,7 +336,7 @@ class ScatteredAccessor:
         pyvista.MultiBlock
             The slices ``YZ``, ``XZ`` and ``XY``.
         """
-        center = _datasets.bounds_of(self._checked("point")).mean(axis=1)
+        center = _datasets.bounds_of(self._checked()).mean(axis=1)
         origin = [middle if place is None else place for place, middle in zip((x, y, z), center)]
         return pv.MultiBlock({name: self._slice(axis, origin, None, contour, progress_bar, options)
                               for name, axis in (("YZ", "x"), ("XZ", "y"), ("XY", "z"))})
@@ -421,7 +388,7 @@ class ScatteredAccessor:
         vorticity: Union[bool, str, None] = None,
         qcriterion: Union[bool, str, None] = None,
         *,
-        method: str = "BLEND",
+        method: str = "blend",
         preference: str = "point",
         progress_bar: bool = False,
         threads: Optional[int] = None,
@@ -445,7 +412,8 @@ class ScatteredAccessor:
             the order of ``vtkGradientFilter``: x, y and z derivatives of the first component, then of the next.
         """
         if scalars is None:
-            scalars, preference = _active_scalars(self._dataset)
+            scalars, (first, _) = _active_scalars(self._dataset)
+            preference = "cell" if first == CELL else "point"
         if are_names(scalars):
             raise TypeError("scalars are one array: call compute_derivative() for each")
         wanted = names_of_derivatives(gradient, divergence, vorticity, qcriterion)
@@ -490,58 +458,53 @@ class ScatteredAccessor:
 
         needs_arrays: whether data without any have no samples.
         """
-        data = self._checked(preference)
-        associations: tuple[int, ...] = (CELL, POINT) if preference == "cell" else (POINT, CELL)
+        data, associations = self._checked(), _associations(preference)
         names = [scalars] if isinstance(scalars, str) else scalars if are_names(scalars) else []
         if scalars is not None and not names:
             associations = (_datasets.association_of(data, np.shape(scalars)),)
-        elif scalars is None and not needs_arrays and not _datasets.have_numbers(data):
-            return self._bare_samples(data, preference, progress, threads), {}
-        samples = _kept_samples(
-            data, ("without values", *names, *associations),
-            lambda: _datasets.samples_with(data, names, associations), progress, threads, True)
+        is_bare = scalars is None and not needs_arrays and not _datasets.have_numbers(data)
+
+        def find() -> _datasets.DataSamples:
+            if is_bare and associations[0] == POINT:
+                return _datasets.samples_at(data, with_arrays=True)
+            return _datasets.samples_with(data, names, (CELL,) if is_bare else associations)
+
+        samples = _kept_samples(data, ("without values", is_bare, *names, *associations), find, progress, threads, True)
+        if scalars is not None and not names:
+            return samples, {"values": scalars}
         if scalars is None:
             uses = samples._maker.uses
             names = [name for name in samples._arrays or {} if uses.get(name) != _datasets.PEDIGREE_IDS]
-        elif not names:
-            return samples, {"values": scalars}
         return samples, {name: name for name in names}
 
-    def _bare_samples(self, data: Any, preference: str, progress: Progress, threads: Optional[int]) -> Samples:
-        """The samples of all blocks, with arrays or without."""
-        def find() -> _datasets.DataSamples:
-            return (_datasets.samples_with(data, (), (CELL,)) if preference == "cell" else
-                    _datasets.samples_at(data, with_arrays=True))
-
-        return _kept_samples(data, ("all blocks", preference), find, progress, threads, True)
-
-    def _checked(self, preference: str) -> Any:
+    def _checked(self) -> Any:
+        """The data, if these can have samples."""
         data = self._dataset
         if not (data.IsA("vtkDataSet") or data.IsA("vtkCompositeDataSet")):
             raise TypeError(f"A {type(data).__name__} has no samples: make a pyvista.PolyData of its"
                             " positions first.")
-        if preference not in ("point", "cell"):
-            raise ValueError(f"preference cannot be {preference!r}: it is 'point' or 'cell'")
         return data
 
     def _load(self, scalars: Any, preference: str, progress: Progress, threads: Optional[int], keeps: bool) -> Samples:
-        data = self._checked(preference)
+        data, associations = self._checked(), _associations(preference)
         if scalars is None:
-            scalars, preference = _active_scalars(data)
+            scalars, associations = _active_scalars(data)
         if not isinstance(scalars, str):
-            return _loaded(_datasets.samples_of(data, scalars), progress, threads)
-        associations = (CELL, POINT) if preference == "cell" else (POINT, CELL)
+            return Samples(data, scalars, threads=threads, progress=progress)
         return _kept_samples(data, (scalars, *associations), lambda: _datasets.samples_of(data, scalars, associations),
                              progress, threads, keeps)
+
+
+def _associations(preference: str) -> tuple[int, ...]:
+    """Where an array is looked for, in this order."""
+    return named("preference", preference, {"point": (POINT, CELL), "cell": (CELL, POINT)})
 
 
 def _options_of_probe(given: Mapping[str, Any]) -> dict[str, Any]:
     """All of ScatteredAccessor.probe(), with defaults. Raises TypeError if it has no such one."""
     parameters = inspect.signature(ScatteredAccessor.probe).parameters.values()
     options = {each.name: each.default for each in parameters if each.kind is each.KEYWORD_ONLY}
-    for name in given:
-        if name not in options:
-            raise TypeError(f"unknown option {name}: {hint(name, options)}")
+    check_names(given, options)
     return {**options, **given}
 
 
@@ -561,23 +524,12 @@ def _add_arrays(attributes: pv.DataSetAttributes, arrays: Mapping[str, np.ndarra
             attributes.VTKObject.AddArray(as_vtk(package_of(attributes.VTKObject), name, array))
 
 
-def _loaded(found: _datasets.DataSamples, progress: Progress, threads: Optional[int],
-            kept: Optional[Samples] = None) -> Samples:
-    """Samples of a data object, in the place of others, whose tree serves if the positions are the same."""
-    with shown_progress(progress, "Loading samples") as report:
-        if kept is None:
-            return Samples._of(found, threads, progress=report)
-        kept._threads = threads
-        kept._take(found, progress=report)
-        return kept
-
-
-def _active_scalars(data: Any) -> tuple[str, str]:
-    """The name and the association of the active scalars of the first data set that has some."""
+def _active_scalars(data: Any) -> tuple[str, tuple[int, ...]]:
+    """The name of the active scalars of the first data set that has some, and where they are."""
     for leaf in _datasets.leaves(data):
         info = leaf.active_scalars_info if isinstance(leaf, pv.DataSet) and leaf.n_points else None
         if info is not None and info.name is not None:
-            return info.name, info.association.name.lower()
+            return info.name, _associations(info.association.name)
     raise ValueError("There are no active scalars: give the name of an array as scalars.")
 
 
@@ -603,8 +555,14 @@ def _kept_samples(data: Any, choice: tuple, find: Callable[[], _datasets.DataSam
     with _lock:
         kept = _kept.pop(id_, None)
     samples = kept[2] if kept is not None and kept[0]() is data else None
+    if samples is not None:
+        samples._threads = threads
     if samples is None or kept[1] != key:
-        samples = _loaded(find(), progress, threads, samples)
+        with shown_progress(progress, "Loading samples") as report:
+            if samples is None:
+                samples = Samples._of(find(), threads, progress=report)
+            else:
+                samples._take(find(), progress=report)
     if not keeps:
         return samples
     with _lock:

@@ -16,7 +16,8 @@ import numpy as np
 
 from . import _datasets, _library
 from ._arrays import (
-    are_names, as_numpy, describe_masked, further_arrays, isovalues_of, positions_of, readable, tensors, values_of)
+    are_names, as_numpy, by_name, describe_masked, further_arrays, levels_of, positions_of, readable, tensors,
+    values_of)
 from ._bodies import body_of
 from ._cuts import Normal
 from ._interpolator import Interpolator
@@ -67,14 +68,9 @@ class Samples:
         As in :func:`contour`; None: without values, for :meth:`probe`, :meth:`slice` and :meth:`body`. A sample whose
         value is not finite takes no part in any call.
     threads
-        Maximum number of threads; None: all available cores.
+        As in :func:`contour`. It is the default of the methods, too.
     progress
         As in :func:`contour`, for loading.
-
-    Raises
-    ------
-    ValueError, TypeError, MemoryError, KeyboardInterrupt
-        As :func:`contour` does.
     """
 
     def __init__(
@@ -246,9 +242,8 @@ class Samples:
     ) -> Isosurface:
         """Extracts isosurfaces: :func:`contour` describes parameters, result and errors.
 
-        Calls after the first one take a fraction of its time. ``threads=None`` stands for the number that the
-        object was made with. ``keep_tree=False`` frees the samples: call :meth:`replace_values` before the
-        next isosurface.
+        Calls after the first one take a fraction of its time. ``keep_tree=False`` frees the samples: call
+        :meth:`replace_values` before the next isosurface.
         """
         return self._contour(isovalues, triangles, arrays, threads, progress, options, stacklevel=3)
 
@@ -269,7 +264,7 @@ class Samples:
             raise TypeError("arrays go with an array of positions: add them to the data set instead")
         chosen = make_options(triangles, options)
         sign = direction_sign(options.get("gradient_direction", "descent"))
-        levels = isovalues_of(isovalues)
+        levels = levels_of("isovalues", isovalues)
         of_samples = further_arrays(arrays, len(self)) if self._arrays is None else self._arrays
         threads = self._threads if threads is None else threads
         most_threads = thread_count(threads)
@@ -319,26 +314,18 @@ class Samples:
         return surface
 
     def body(
-        self, arrays: Any = None, *, threads: Optional[int] = None, progress: Progress = None,
+        self, *, arrays: Any = None, threads: Optional[int] = None, progress: Progress = None,
         **options: Unpack[BodyOptions]
     ) -> Isosurface:
-        """The closed surface of all samples: :func:`body` describes parameters, result and errors.
-
-        Parameters
-        ----------
-        arrays
-            As in :meth:`slice`.
-        threads
-            None stands for the number that the object was made with.
-        """
+        """The closed surface of all samples: :func:`body` describes it. ``arrays`` are as in :meth:`slice`."""
         return body_of(self, arrays, threads, progress, options, stacklevel=3)
 
     def slice(
         self,
         normal: Optional[Normal] = None,
         origin: Any = None,
-        arrays: Any = None,
         *,
+        arrays: Any = None,
         function: Any = None,
         offsets: Union[float, Iterable[float]] = 0.0,
         interpolation: str = "fits",
@@ -355,8 +342,6 @@ class Samples:
         arrays
             As in :meth:`probe`. None: the values of the samples and the arrays of the data set that they were made
             of.
-        threads
-            None stands for the number that the object was made with.
         """
         return sliced(self, normal, origin, arrays, function, offsets, interpolation, threads, progress, options,
                       stacklevel=3)
@@ -364,10 +349,10 @@ class Samples:
     def probe(
         self,
         places: Any,
-        arrays: Any = None,
         *,
+        arrays: Any = None,
         gradient: bool = False,
-        method: str = "BLEND",
+        method: str = "blend",
         outside: Union[float, str, None] = math.nan,
         threads: Optional[int] = None,
         progress: Progress = None,
@@ -379,8 +364,6 @@ class Samples:
         arrays
             One per sample, or names of arrays of the data set that the samples were made of. None: the values of
             the samples. A mapping of names to arrays, or a list of names, gives a dict.
-        threads
-            None stands for the number that the object was made with.
         """
         return self._probe(places, arrays, gradient, method, outside, threads, progress, stacklevel=3)
 
@@ -388,7 +371,7 @@ class Samples:
         self,
         array: Any = None,
         *,
-        method: str = "BLEND",
+        method: str = "blend",
         outside: Union[float, str, None] = math.nan,
         threads: Optional[int] = None,
     ) -> Interpolator:
@@ -409,28 +392,28 @@ class Samples:
     def _probe(self, places, arrays, gradient, method, outside, threads, progress, stacklevel, seeks_gaps=True) -> Any:
         """probe(). Seeks entries of the arrays that are no numbers, for a message, which takes a pass over them."""
         chosen, with_gradients = make_probe_options(method, outside), switch("gradient", gradient)
-        is_nearest = chosen.method == CONSTANTS["method"]["NEAREST"]
+        is_nearest = chosen.method == CONSTANTS["method"]["nearest"]
         if with_gradients and is_nearest:
-            raise ValueError("the method NEAREST has no gradients: use another one")
-        are_many = isinstance(arrays, Mapping) or are_names(arrays)
-        many = arrays if isinstance(arrays, Mapping) else dict(zip(arrays, arrays)) if are_many else {"values": arrays}
-        numbers = {name: self._numbers_of(array, str(name)) for name, array in many.items()}
+            raise ValueError('the method "nearest" has no gradients: use another one')
+        many = by_name(arrays)
+        numbers = {name: self._numbers_of(array, name) for name, array in many.items()}
         points = _datasets.places_of(places)
         with shown_progress(progress, "Probing") as report:
             values, gradients, kinds = self._probed(points, numbers, chosen, with_gradients, threads, report)
         texts = [*self._describe_left_out(), *_describe_flat(kinds)]
         for name, array in many.items() if seeks_gaps else ():
-            texts += self._describe_gaps(str(name), array, numbers[name])
+            texts += self._describe_gaps(name, array, numbers[name])
         for text in texts:
             warnings.warn(text, RuntimeWarning, stacklevel=stacklevel)
-        found = (values, gradients) if are_many else (values["values"], gradients["values"])
-        return found if with_gradients else found[0]
+        if not (isinstance(arrays, Mapping) or are_names(arrays)):
+            (values,), (gradients,) = values.values(), gradients.values()
+        return (values, gradients) if with_gradients else values
 
     def _probed(self, points: np.ndarray, numbers: Mapping[str, np.ndarray], options: _library.ProbeOptions,
                 with_gradients: bool, threads: Optional[int], report: Any, leaves_out: bool = True
                 ) -> tuple[dict, dict, np.ndarray]:
         """Values, gradients and kinds of places, without samples that lack a value if these are to be left out."""
-        is_nearest = options.method == CONSTANTS["method"]["NEAREST"]
+        is_nearest = options.method == CONSTANTS["method"]["nearest"]
         values, gradients = {}, {}
         for name, array in numbers.items():
             shape = len(points), *array.shape[1:]
@@ -493,6 +476,13 @@ class Samples:
         is_of_vtk = hasattr(array, "GetDataType") and not isinstance(array, np.ndarray)
         return tensors(name, self._current(name, array) if is_of_vtk else array, len(self))
 
+    def _arrays_of(self, arrays: Any) -> dict[str, Any]:
+        """Arrays by name; for None the values, and all arrays of the data set."""
+        if arrays is not None:
+            return {name: self._numbers_of(array, name) for name, array in by_name(arrays).items()}
+        values = {} if self._values is None else {self._maker.scalars or "values": self._own_values()}
+        return {**values, **(self._arrays or {})}
+
     def _interpolated(self, surface, of_samples: Mapping[str, Any], is_canceled) -> dict[str, np.ndarray]:
         count = len(_library.view(surface, _library.POINTS))
         found: dict[str, np.ndarray] = {}
@@ -519,18 +509,17 @@ class Samples:
 
     def _as_isosurface(self, surface, arrays, levels, options: _library.Options, threads: Optional[int],
                        sign: int = 1) -> Isosurface:
-        triangles, shapes = None, {}
-        if options.triangles:
-            triangles = _library.view(surface, _library.TRIANGLES)
-        elif options.compute_splats:
-            shapes = {"SplatAxis": _library.view(surface, _library.SPLAT_AXES),
-                      "SplatPolygon": _library.view(surface, _library.SPLAT_POLYGONS)}
-        maker = self._maker if options.compute_normals else replace(self._maker, normals=None)
-        caps = {"IsCap": _library.view(surface, _library.CAPS)} if options.capping else {}
-        return Isosurface(_library.view(surface, _library.POINTS), triangles, arrays, shapes, maker, threads=threads,
-                          cell_arrays=caps, levels=levels,
-                          isovalues=_signed(_library.view(surface, _library.ISOVALUES), sign),
-                          is_capped=bool(options.capping))
+        def views(is_wanted: int, **ids: int) -> dict[str, np.ndarray]:
+            return {name: _library.view(surface, id_) for name, id_ in ids.items()} if is_wanted else {}
+
+        return Isosurface(
+            _library.view(surface, _library.POINTS), arrays=arrays, threads=threads, levels=levels,
+            triangles=_library.view(surface, _library.TRIANGLES) if options.triangles else None,
+            splat_shapes=views(options.compute_splats and not options.triangles, SplatAxis=_library.SPLAT_AXES,
+                               SplatPolygon=_library.SPLAT_POLYGONS),
+            cell_arrays=views(options.capping, IsCap=_library.CAPS), is_capped=bool(options.capping),
+            make_polydata=self._maker if options.compute_normals else replace(self._maker, normals=None),
+            isovalues=_signed(_library.view(surface, _library.ISOVALUES), sign))
 
 
 _all: weakref.WeakSet[Samples] = weakref.WeakSet()

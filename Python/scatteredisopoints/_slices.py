@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Mapping, Optional
 import numpy as np
 
 from . import _datasets, _library
-from ._arrays import are_names, as_numpy, isovalues_of, readable
+from ._arrays import as_numpy, levels_of, readable
 from ._cuts import Cut, Normal, describe_empty, make_cut, rounded, shares_to_zero
 from ._isosurface import Isosurface, describe_not_finite
 from ._options import make_probe_options, make_slice_options, method_of_slice, thread_count
@@ -26,11 +26,11 @@ def sliced(samples: Samples, normal: Optional[Normal], origin: Any, arrays: Any,
     """Samples.slice()."""
     method = method_of_slice(interpolation)
     cut, level = make_cut(normal, origin, function, lambda: _center_of_bounds(samples))
-    levels = [level + offset for offset in isovalues_of(offsets)]
+    levels = [level + offset for offset in levels_of("offsets", offsets)]
     if any(map(math.isnan, levels)):
         raise ValueError("An offset is not a number. Choose numbers as offsets.")
     chosen = make_slice_options(options)
-    of_samples = arrays_of(samples, arrays)
+    of_samples = samples._arrays_of(arrays)
     with shown_progress(progress, "Slicing") as report:
         made = make_slice(samples, cut, levels, chosen, of_samples, method, threads, report)
     empty = describe_empty(levels, *made.range, made.dropped) if len(made.isosurface) == 0 else None
@@ -78,23 +78,9 @@ def make_slice(samples: Samples, cut: Cut, levels: list[float], options: _librar
         points = _moved_onto(samples, cut, at_samples, surface, points, of_samples, found)
     if method is not None and len(points):
         _fit(samples, points, of_samples, found, method, threads, part(report, 0.6, 1.0))
-    triangles, maker = _library.view(surface, _library.TRIANGLES), replace(samples._maker, normals=None)
-    return Slice(Isosurface(points, triangles, found, {}, maker, threads=threads), held_range,
-                 _library.get_dropped_count(surface), skipped)
-
-
-def arrays_of(samples: Samples, arrays: Any) -> dict[str, Any]:
-    """The arrays of a slice by name."""
-    if isinstance(arrays, Mapping) or are_names(arrays):
-        many = arrays if isinstance(arrays, Mapping) else dict(zip(arrays, arrays))
-    elif arrays is not None:
-        many = {arrays if isinstance(arrays, str) else "values": arrays}
-    else:
-        return {**({} if samples._values is None else {samples._maker.scalars or "values": samples._own_values()}),
-                **(samples._arrays or {})}
-    if not all(isinstance(name, str) for name in many):
-        raise TypeError("arrays are a mapping of names, which are strings, to arrays")
-    return {name: samples._numbers_of(array, name) for name, array in many.items()}
+    made = Isosurface(points, triangles=_library.view(surface, _library.TRIANGLES), arrays=found,
+                      make_polydata=replace(samples._maker, normals=None), threads=threads)
+    return Slice(made, held_range, _library.get_dropped_count(surface), skipped)
 
 
 def _center_of_bounds(samples: Samples) -> np.ndarray:

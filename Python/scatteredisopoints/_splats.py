@@ -66,8 +66,8 @@ def polygons_of(
                           data.GetFieldData())
     arrays = {name: as_numpy(array) for name, array, _ in kept}
     isopoints = Isosurface(
-        points, None, {**arrays, "Normals": normals.astype(np.float32), POINT_IDS: np.arange(len(points))},
-        {"SplatAxis": axes.astype(np.float32), "SplatPolygon": polygons}, maker)
+        points, arrays={**arrays, "Normals": normals.astype(np.float32), POINT_IDS: np.arange(len(points))},
+        splat_shapes={"SplatAxis": axes.astype(np.float32), "SplatPolygon": polygons}, make_polydata=maker)
     splats = isopoints._splats(scale, threads, **callbacks)
     _add_cell_arrays(splats, data, cell_of_point)
     return splats.polydata, problem

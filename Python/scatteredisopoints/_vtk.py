@@ -116,7 +116,7 @@ class vtkScatteredIsosurfaceFilter(_Contour):
 
 
 for _name, _number in {**CONSTANTS["projection"], **CONSTANTS["normal_method"]}.items():
-    setattr(_Contour, _name, _number)
+    setattr(_Contour, _name.upper(), _number)
 
 
 @with_properties("IsopointSplatPolygons", "RadiusArrayName")

@@ -120,5 +120,5 @@ def _copy(data: Any, output: Any) -> None:
 
 
 for _name, _number in CONSTANTS["method"].items():
-    if _name != "NEAREST":
-        setattr(vtkScatteredGradientFilter, _name, _number)
+    if _name != "nearest":
+        setattr(vtkScatteredGradientFilter, _name.upper(), _number)

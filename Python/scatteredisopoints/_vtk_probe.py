@@ -15,6 +15,7 @@ from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkStreamingDemandD
 from . import _datasets, _library
 from ._arrays import as_numpy, positions_of, readable
 from ._ghosts import hide_points
+from ._lines_and_grids import line_between
 from ._options import CONSTANTS, make_probe_options
 from ._polydata import as_vtk
 from ._progress import part
@@ -111,7 +112,7 @@ class vtkScatteredProbeFilter(Probing):
         arrays = {name: array for name, array in arrays.items() if name not in own}
         blocks = [block for block in _datasets.leaves(output) if block.IsA("vtkDataSet")]
         places = [positions_of(as_numpy(_datasets.point_positions(block))) for block in blocks]
-        keeps_types = self._values["Interpolation"] == CONSTANTS["method"]["NEAREST"]
+        keeps_types = self._values["Interpolation"] == CONSTANTS["method"]["nearest"]
         numbers = {name: readable(name, array.numbers.astype(np.float64) if keeps_types and array.data_type == DOUBLE
                                   else array.numbers) for name, array in arrays.items()}
         strategy = self._values["NullPointsStrategy"]
@@ -177,7 +178,7 @@ def _describe_lacking(has_arrays: bool, are_null: np.ndarray) -> list[_library.M
 
 
 for _name, _number in CONSTANTS["method"].items():
-    setattr(vtkScatteredProbeFilter, _name, _number)
+    setattr(vtkScatteredProbeFilter, _name.upper(), _number)
 
 
 @with_properties("ScatteredLine")
@@ -202,23 +203,15 @@ class vtkScatteredLineFilter(vtkScatteredProbeFilter):
             raise ValueError("The ends of the line are not finite. Set finite numbers.")
         if self.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.UPDATE_PIECE_NUMBER()) > 0:
             return
-        count = self._values["Resolution"] + 1
-        shares = np.arange(count) / self._values["Resolution"]
-        points, lines = vtkPoints(), vtkCellArray()
-        points.SetData(as_vtk(PACKAGE, "Points", (1.0 - shares[:, None]) * begin + shares[:, None] * end))
+        positions, distances = line_between(begin, end, self._values["Resolution"])
+        count, points, lines = len(positions), vtkPoints(), vtkCellArray()
+        points.SetData(as_vtk(PACKAGE, "Points", positions))
         # NumPy 1 makes 32-bit integers on Windows.
         lines.SetData(*(numpy_to_vtkIdTypeArray(np.asarray(ids, np.int64), deep=True)
                         for ids in ([0, count], np.arange(count))))
         output.SetPoints(points)
         output.SetLines(lines)
-        output.GetPointData().AddArray(as_vtk(PACKAGE, LINE_LENGTH, shares * _length(end - begin)))
-
-
-def _length(vector: np.ndarray) -> float:
-    """Scaled by the greatest component, as std::hypot() does it, for the same bytes as of the compiled class."""
-    most = np.abs(vector).max()
-    x, y, z = vector / most if most > 0.0 else vector
-    return float(most * math.sqrt(x * x + y * y + z * z))
+        output.GetPointData().AddArray(as_vtk(PACKAGE, LINE_LENGTH, distances))
 
 
 @with_properties("ScatteredGrid")

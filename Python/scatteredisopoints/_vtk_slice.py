@@ -13,7 +13,7 @@ from ._cuts import cut_by, describe_empty, is_outermost
 from ._option_types import SliceOptions
 from ._options import make_slice_options, method_of_slice, property_name
 from ._progress import part
-from ._slices import Slice, arrays_of, make_slice
+from ._slices import Slice, make_slice
 from ._vtk_algorithm import ContourValues, ScatteredAlgorithm, describe_left_out, in_properties, with_counts, with_properties
 
 INTERPOLATIONS = ("fits", "linear", "nearest")
@@ -58,7 +58,7 @@ class vtkScatteredSliceFilter(ContourValues, ScatteredAlgorithm):
         options = make_slice_options({name: self._values[property_name(name)] for name in SliceOptions.__annotations__})
         options.keep_tetrahedra = self._values["KeepTree"]
         try:
-            made = make_slice(samples, cut, levels, options, arrays_of(samples, None),
+            made = make_slice(samples, cut, levels, options, samples._arrays_of(None),
                               method_of_slice(INTERPOLATIONS[self._values["Interpolation"]]), None,
                               part(self._advance, LOADED, 1.0))
         except ValueError as error:

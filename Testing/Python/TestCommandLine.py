@@ -141,7 +141,7 @@ class CommandLine(unittest.TestCase):
                 (("contour", "a.npz", "T", 0.4, "--capping"),
                  contour(POSITIONS, VALUES, 0.4, triangles=True, capping=True, arrays={"velocity": velocity})),
                 (("body", "a.npz", "velocity", "--option", "minimum_piece_size=0.01"),
-                 body(POSITIONS, {"velocity": velocity}, minimum_piece_size=0.01))):
+                 body(POSITIONS, arrays={"velocity": velocity}, minimum_piece_size=0.01))):
             found = self.made(*arguments)
             np.testing.assert_array_equal(found["points"], expected.points)
             np.testing.assert_array_equal(found["triangles"], expected.triangles)
@@ -157,7 +157,7 @@ class CommandLine(unittest.TestCase):
                 ((), {}), (("--normal", "-z", "--origin", "0,0,0.3"), dict(normal="-z", origin=(0, 0, 0.3))),
                 (("--offsets", "-0.1,0.1", "--normal", "-1,1,0", "--interpolation", "linear"),
                  dict(offsets=[-0.1, 0.1], normal=(-1, 1, 0), interpolation="linear"))):
-            expected = slice_samples(POSITIONS, {"T": VALUES, "velocity": POSITIONS * [1, 2, 3]}, **options)
+            expected = slice_samples(POSITIONS, arrays={"T": VALUES, "velocity": POSITIONS * [1, 2, 3]}, **options)
             for order in (("slice", "a.npz", "T", "velocity", *arguments), ("slice", *arguments, "a.npz"),
                           ("slice", "a.npz", *arguments, "velocity", "T")):
                 found = self.made(*order)

@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Data sets that are read through their methods yield what the compiled filters make of them."""
 
-import os
-import pickle
-import signal
 import unittest
 import warnings
 
 import numpy as np
-from scatteredisopoints import Samples, contour, contouring, slice_samples, vtkScatteredSliceFilter
-from vtk_data import amr_of, assert_same, blocks_of, centers_in, cloud_of, named, points_of, positions_in, set_all
+from filter_testing import ANY, chosen
+from scatteredisopoints import (
+    Samples, contour, slice_samples, vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter, vtkScatteredSliceFilter)
+from scatteredisopoints._options import number_of, property_name
+from vtk_data import (
+    amr_of, assert_same, blocks_of, centers_in, cloud_of, configured, named, observed, points_of, positions_in,
+    set_all)
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkBitArray, vtkMath
 from vtkmodules.vtkCommonDataModel import (
@@ -99,19 +101,19 @@ def prepared(data, of_cells=False, ghosts=""):
 
 
 class DataSetsTest(unittest.TestCase):
-    def same(self, data, values, isovalues, **options):
+    def same(self, data, values, isovalues, triangles=False, **options):
         """Compares what Samples and the filter yield."""
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            ours = Samples(data, values).contour(isovalues, **options)
-            theirs = contouring.compiled_filters().filtered(
-                data, values, isovalues, options.pop("triangles", False), None, None, options)
-        np.testing.assert_array_equal(ours.points, theirs.points)
-        self.assertEqual(set(ours.arrays), set(theirs.arrays))
-        for name, array in theirs.arrays.items():
-            self.assertEqual(ours.arrays[name].dtype, array.dtype, name)
-            np.testing.assert_array_equal(ours.arrays[name], array, name)
-        assert_same(self, ours.polydata, theirs.polydata)
+            ours = Samples(data, values).contour(isovalues, triangles=triangles, **options)
+        filter_ = configured(
+            vtkScatteredIsosurfaceFilter if triangles else vtkScatteredIsopointFilter, data, isovalues,
+            **{property_name(name): number_of(name, value, 0) for name, value in options.items()})
+        observed(filter_)
+        if values is not None:
+            chosen(filter_, values, ANY)
+        filter_.Update()
+        assert_same(self, ours.polydata, filter_.GetOutput())
         return len(ours)
 
     def test_all_kinds_of_data(self):
@@ -134,7 +136,6 @@ class DataSetsTest(unittest.TestCase):
             self.same(data, "count", [700.5, 20.5], compute_gradients=True)
             data.GetPointData().SetActiveScalars("distance")
             self.same(data, None, [isovalue], projection="no_projection")
-            self.same(data, RANDOM.random(3000), [0.5])
 
     def test_positions_that_are_integers(self):
         positions = np.floor(40 * RANDOM.random((3000, 3)))
@@ -228,34 +229,6 @@ class DataSetsTest(unittest.TestCase):
             copied = surface.polydata.GetFieldData().GetArray("TimeValue")
             self.assertEqual(copied.GetValue(0), 1.5)
 
-    def test_the_compiled_path_keeps_its_promises(self):
-        data, isovalue = prepared(cloud(50000))
-
-        def fail(_fraction):
-            raise InterruptedError
-
-        with self.assertRaises(InterruptedError):
-            contour(data, "distance", isovalue, progress=fail)
-        for options in (dict(angle=None), dict(triangles="no"), dict(drop_gaps="maybe"),
-                        dict(triangles=True, regularize="maybe")):
-            with self.assertRaisesRegex(ValueError, "cannot be"):
-                contour(data, "distance", isovalue, **options)
-        surface = contour(data, "distance", isovalue)
-        again = pickle.loads(pickle.dumps(surface))
-        np.testing.assert_array_equal(again.points, surface.points)
-
-        def interrupt(_fraction):
-            signal.raise_signal(signal.SIGINT)
-
-        signal.signal(signal.SIGINT, signal.default_int_handler)
-        with self.assertRaises(KeyboardInterrupt):
-            contour(data, "distance", isovalue, progress=interrupt)
-
-    def test_threads_of_data_sets(self):
-        data, isovalue = prepared(cloud())
-        self.assertEqual(contour(data, "distance", isovalue, threads=1).points.tobytes(),
-                         contour(data, "distance", isovalue).points.tobytes())
-
     def test_what_has_no_samples(self):
         data, _ = prepared(cloud())
         for arguments, error, text in (
@@ -287,7 +260,7 @@ class Slices(unittest.TestCase):
                              GenerateTriangles=False, OutputPointsPrecision=1)
             cutter.Update()
             expected = cutter.GetOutput()
-            sliced = slice_samples(data, "sum", function=plane, interpolation="linear", drop_gaps=False,
+            sliced = slice_samples(data, arrays="sum", function=plane, interpolation="linear", drop_gaps=False,
                                    regularize=False)
             distances = np.linalg.norm(positions_in(expected)[:, None] - sliced.points, axis=2)
             vertices = distances.argmin(axis=1)
@@ -338,7 +311,7 @@ class Slices(unittest.TestCase):
         self.assertEqual(set(sliced.arrays), {"distance", "place", "count", "ids"})
         self.assertEqual(sliced.polydata.GetPointData().GetPedigreeIds().GetName(), "ids")
         np.testing.assert_allclose(sliced.arrays["place"], sliced.points, atol=1e-9)
-        self.assertEqual(set(slice_samples(data, ["place"]).arrays), {"place"})
+        self.assertEqual(set(slice_samples(data, arrays=["place"]).arrays), {"place"})
         self.assertEqual(set(Samples(data, "distance").slice("y").arrays), set(sliced.arrays))
 
 

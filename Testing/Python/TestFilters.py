@@ -17,7 +17,7 @@ import scatteredisopoints
 from filter_testing import (
     ANY, CELLS, DIFFERENCES, DOCUMENT, DUPLICATE, DUPLICATE_POINT, HIDDEN, HIDDEN_POINT, POINTS, REFINED, FilterTests,
     add, chosen, cloud, every_grid, image, places_of, values_in, with_field, with_ghosts)
-from scatteredisopoints import _library, _vtk, contouring
+from scatteredisopoints import _library, _vtk
 from vtk_data import (
     assert_same, blocks_of, centers_in, cloud_of, configured, leaves_of, named, observed, positions_in, set_all,
     updated)
@@ -655,7 +655,7 @@ class FiltersInPython(Filters, unittest.TestCase):
         self.assertEqual([difference for difference in DIFFERENCES if f"- {difference}" not in text], [])
 
 
-@unittest.skipIf(contouring.compiled_filters() is None, "there are no compiled filters")
+@unittest.skipIf(scatteredisopoints.vtkScatteredIsopointFilter is _vtk.vtkScatteredIsopointFilter, "there is no compiled one")
 class CompiledFilters(Filters, unittest.TestCase):
     module = scatteredisopoints
 

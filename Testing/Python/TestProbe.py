@@ -158,7 +158,7 @@ class KeptSamples(unittest.TestCase):
         expected, surface = probe(POSITIONS, values, PLACES), contour(POSITIONS, values, 0.5)
         samples = Samples(POSITIONS)
         self.assertEqual(repr(samples), "<Samples: 6000, without values>")
-        np.testing.assert_array_equal(samples.probe(PLACES, values), expected)
+        np.testing.assert_array_equal(samples.probe(PLACES, arrays=values), expected)
         with self.assertRaisesRegex(TypeError, "without values"):
             samples.probe(PLACES)
         with self.assertRaisesRegex(ValueError, "without values: call replace_values"):
@@ -170,7 +170,7 @@ class KeptSamples(unittest.TestCase):
         samples.contour(0.5, keep_tree=False)
         for arrays in (None, values):
             with self.assertRaisesRegex(ValueError, "keep_tree was False: call replace_values"):
-                samples.probe(PLACES, arrays)
+                samples.probe(PLACES, arrays=arrays)
 
     def test_interpolators(self):
         samples = Samples(POSITIONS, POSITIONS @ [1, 2, 3])
@@ -216,7 +216,8 @@ class Calls(unittest.TestCase):
             with self.subTest(text), self.assertRaisesRegex(error, text):
                 probe(*arguments)
         for options, text in (
-                (dict(method="CUBIG"), "BLEND, CUBIC"), (dict(method=None), "BLEND, CUBIC"), (dict(method=9), "method cannot be 9: it is BLEND"),
+                *((dict(method=wrong), f"^method cannot be {wrong!r}: it is \"blend\", \"cubic\",.* or \"nearest\"$")
+                  for wrong in ("CUBIG", None, 9)),
                 (dict(outside="far"), '"nearest", or None'), (dict(outside=True), "a number"),
                 (dict(outside=10**400), "outside is out of range: .*1.8e308"),
                 (dict(threads=0), "threads"), (dict(gradient="yes"), "True or False"),
@@ -228,7 +229,7 @@ class Calls(unittest.TestCase):
         signal.signal(signal.SIGINT, signal.default_int_handler)
         places = RANDOM.uniform(-1, 1, (30000, 3))
         for call in (lambda progress: probe(POSITIONS, POSITIONS, places, progress=progress),
-                     lambda progress: Samples(POSITIONS).probe(places, POSITIONS, progress=progress)):
+                     lambda progress: Samples(POSITIONS).probe(places, arrays=POSITIONS, progress=progress)):
             fractions = []
             call(fractions.append)
             self.assertEqual((fractions, fractions[-1]), (sorted(fractions), 1))
@@ -239,19 +240,19 @@ class Calls(unittest.TestCase):
                 call(lambda fraction: fraction > 0.3 and 1 / 0)
         samples = Samples(POSITIONS)
         with self.assertRaisesRegex(RuntimeError, "cannot use the samples"):
-            samples.probe(places, POSITIONS, progress=lambda _: samples.probe(PLACES, POSITIONS))
+            samples.probe(places, arrays=POSITIONS, progress=lambda _: samples.probe(PLACES, arrays=POSITIONS))
 
     @unittest.skipUnless(hasattr(os, "fork"), "there is no fork()")
     def test_forked_children(self):
         samples = Samples(POSITIONS)
-        expected = samples.probe(PLACES, POSITIONS)
+        expected = samples.probe(PLACES, arrays=POSITIONS)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", DeprecationWarning)  # of fork() in a process with threads
             child = os.fork()
         if child == 0:
             signal.alarm(60)  # a child that waits is a failure
             with contextlib.suppress(BaseException):
-                os._exit(0 if np.array_equal(samples.probe(PLACES, POSITIONS), expected) else 1)
+                os._exit(0 if np.array_equal(samples.probe(PLACES, arrays=POSITIONS), expected) else 1)
             os._exit(2)
         self.assertEqual(os.waitpid(child, 0)[1], 0)
 

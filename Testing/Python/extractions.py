@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Prints hashes of extractions from 24 clouds, or the first ones: extractions.py [--filters] [CLOUDS]
 
-The option goes through the compiled filters rather than the C library. The lines are the same wherever
-results are.
+The option runs the compiled filters rather than the C library. The lines are the same wherever results are.
 """
 
 import hashlib
@@ -10,7 +9,7 @@ import sys
 import warnings
 
 import numpy as np
-from scatteredisopoints import contour, contouring
+from scatteredisopoints import Isosurface, _options, contour
 
 
 def samples(number):
@@ -39,6 +38,25 @@ def options_of(number):
     return options
 
 
+def extracted(positions, values, isovalues, triangles, options):
+    return contour(positions, values, isovalues, triangles=triangles, **options)
+
+
+def filtered(positions, values, isovalues, triangles, options):
+    """The same by a filter."""
+    from scatteredisopoints import vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter
+    from vtk_data import cloud_of, updated
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    kind = vtkScatteredIsosurfaceFilter if triangles else vtkScatteredIsopointFilter
+    output = updated(kind, cloud_of(positions, values), isovalues, **{
+        _options.property_name(name): _options.number_of(name, value, 0) for name, value in options.items()}).GetOutput()
+    arrays, shapes = ({data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)) for i in range(data.GetNumberOfArrays())}
+                      for data in (output.GetPointData(), output.GetCellData()))
+    return Isosurface(vtk_to_numpy(output.GetPoints().GetData()), arrays=arrays, splat_shapes=shapes,
+                      triangles=vtk_to_numpy(output.GetPolys().GetConnectivityArray()).reshape(-1, 3))
+
+
 def main(extract, clouds):
     for number in range(clouds):
         positions, values = samples(number)
@@ -59,10 +77,4 @@ def main(extract, clouds):
 if __name__ == "__main__":
     warnings.simplefilter("ignore")
     count = int(sys.argv[-1]) if sys.argv[-1].isdigit() else 24
-    if "--filters" in sys.argv:
-        filtered = contouring.compiled_filters().filtered
-        main(lambda positions, values, isovalues, triangles, options: filtered(
-            positions, values, isovalues, triangles, None, None, options), count)
-    else:
-        main(lambda positions, values, isovalues, triangles, options: contour(
-            positions, values, isovalues, triangles=triangles, **options), count)
+    main(filtered if "--filters" in sys.argv else extracted, count)

@@ -1,31 +1,31 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Lines, grids in bounds, and the names of derivatives."""
+"""Points along lines, and of uniform grids."""
 
 from __future__ import annotations
 
 import math
-import operator
 from typing import Any
 
 import numpy as np
-import pyvista as pv
-
-from ._cuts import three_numbers
-from ._derivatives import DERIVATIVES
-from ._options import switch
 
 MOST_POINTS = 2**31 - 1
 """Of a grid."""
 
 
-def line_between(pointa: Any, pointb: Any, resolution: Any) -> tuple[pv.PolyData, np.ndarray]:
-    """A line of double precision, and the distances of its points from the first one."""
-    begin, end = three_numbers("pointa", pointa), three_numbers("pointb", pointb)
-    if not hasattr(resolution, "__index__") or operator.index(resolution) < 1:
-        raise ValueError(f"resolution cannot be {resolution!r}: it is a whole number, 1 or more")
-    shares = np.linspace(0, 1, operator.index(resolution) + 1)
-    points = (1 - shares[:, None]) * begin + shares[:, None] * end
-    return pv.PolyData(points, lines=[len(points), *range(len(points))]), shares * math.dist(begin, end)
+def line_between(begin: np.ndarray, end: np.ndarray, resolution: int) -> tuple[np.ndarray, np.ndarray]:
+    """The ends of the pieces of a line, shape (resolution + 1, 3), and their distances from its begin. The bytes are
+    those of the compiled filter."""
+    shares = np.arange(resolution + 1) / resolution
+    most = np.abs(end - begin).max()
+    x, y, z = (end - begin) / (most if most > 0.0 else 1.0)  # scaled, as std::hypot() does it
+    length = most * math.sqrt(x * x + y * y + z * z)
+    return (1.0 - shares[:, None]) * begin + shares[:, None] * end, shares * length
+
+
+def lattice(axes: list[np.ndarray]) -> np.ndarray:
+    """All positions with these coordinates, x fastest."""
+    z, y, x = np.meshgrid(*axes[::-1], indexing="ij")
+    return np.stack([x, y, z], axis=-1).reshape(-1, 3)
 
 
 def box_of(bounds: Any) -> np.ndarray:
@@ -40,8 +40,9 @@ def box_of(bounds: Any) -> np.ndarray:
     return box.reshape(3, 2)
 
 
-def grid_in(box: np.ndarray, dimensions: Any, spacing: Any) -> pv.ImageData:
-    """A grid in bounds, given by its numbers of points or by their distances. Axes without length have a point."""
+def grid_in(box: np.ndarray, dimensions: Any, spacing: Any) -> dict[str, list]:
+    """The dimensions, spacing and origin of a grid in bounds, given by its numbers of points or by their distances. Axes
+    without length have a point."""
     if (dimensions is None) == (spacing is None):
         raise TypeError("to_grid() takes either dimensions or spacing")
     sizes = box[:, 1] - box[:, 0]
@@ -64,19 +65,4 @@ def grid_in(box: np.ndarray, dimensions: Any, spacing: Any) -> pv.ImageData:
         raise ValueError(f"{name} {given!r} would give {np.prod(counts):.3g} points, and a grid has at most"
                          f" {MOST_POINTS}: choose {'a greater spacing' if dimensions is None else 'fewer'}, or smaller"
                          " bounds")
-    return pv.ImageData(dimensions=counts.astype(int).tolist(), spacing=wanted.tolist(), origin=box[:, 0].tolist())
-
-
-def names_of_derivatives(*flags: Any) -> dict[str, str]:
-    """The names of the arrays with DERIVATIVES, in this order: of each, True stands for its own name, None and False
-    for none. Raises ValueError for other values, and for equal names."""
-    named: dict[str, str] = {}
-    for derivative, flag in zip(DERIVATIVES, flags):
-        name = flag if isinstance(flag, str) else derivative if flag is not None and switch(derivative, flag) else None
-        if name == "":
-            raise ValueError(f'{derivative} cannot be "": give the name of its array, or True')
-        for other in (other for other in named if named[other] == name):
-            raise ValueError(f'{other} and {derivative} cannot both be named "{name}": give each its own name')
-        if name is not None:
-            named[derivative] = name
-    return named
+    return dict(dimensions=counts.astype(int).tolist(), spacing=wanted.tolist(), origin=box[:, 0].tolist())
