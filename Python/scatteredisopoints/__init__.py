@@ -43,22 +43,11 @@ _MODULES = {
                      "vtkScatteredAlgorithm", "vtkScatteredContourFilter", "vtkScatteredSurfaceFilter"), _COMPILED)}
 
 if TYPE_CHECKING:
-    ray_trace: Any
-    vtkIsopointPolygonMapper: Any
-    vtkIsopointRayTracer: Any
-    vtkIsopointSplatMapper: Any
-    vtkIsopointSplatPolygons: Any
-    vtkScatteredAlgorithm: Any
-    vtkScatteredBodyFilter: Any
-    vtkScatteredContourFilter: Any
-    vtkScatteredGradientFilter: Any
-    vtkScatteredGridFilter: Any
-    vtkScatteredIsopointFilter: Any
-    vtkScatteredIsosurfaceFilter: Any
-    vtkScatteredLineFilter: Any
-    vtkScatteredProbeFilter: Any
-    vtkScatteredSliceFilter: Any
-    vtkScatteredSurfaceFilter: Any
+    _any: Any = None
+    ray_trace = vtkIsopointPolygonMapper = vtkIsopointRayTracer = vtkIsopointSplatMapper = vtkIsopointSplatPolygons = _any
+    vtkScatteredAlgorithm = vtkScatteredBodyFilter = vtkScatteredContourFilter = vtkScatteredGradientFilter = _any
+    vtkScatteredGridFilter = vtkScatteredIsopointFilter = vtkScatteredIsosurfaceFilter = vtkScatteredLineFilter = _any
+    vtkScatteredProbeFilter = vtkScatteredSliceFilter = vtkScatteredSurfaceFilter = _any
 else:
     def __getattr__(name):
         if name == "__all__":

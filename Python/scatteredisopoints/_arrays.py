@@ -146,7 +146,9 @@ def further_arrays(arrays: Optional[Mapping[str, Any]], count: int) -> dict[str,
 
 def levels_of(name: str, given: Union[float, Iterable[float]]) -> list[float]:
     """One or several isovalues or offsets as a list, without masked ones."""
-    if given is None or isinstance(given, (str, bytes, bool, np.bool_, Mapping)):
+    if given is None:
+        raise TypeError(f"{name} are missing: give one or several numbers")
+    if isinstance(given, (str, bytes, bool, np.bool_, Mapping)):
         raise TypeError(f"{name} are {given!r}, not numbers")
     if isinstance(given, np.ma.MaskedArray):
         given = given.compressed()

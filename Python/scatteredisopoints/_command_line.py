@@ -17,6 +17,7 @@ import numpy as np
 
 from . import __version__
 from ._arrays import as_numpy
+from ._datasets import DataSamples
 from ._isosurface import Isosurface
 from ._lines_and_grids import lattice, line_between
 from ._options import CONSTANTS
@@ -52,6 +53,10 @@ The file is then FOLDER/scatteredisopoints/paraview/{PYTHON_PLUGIN.name}; PYTHON
 """
 
 
+def loaded(samples: DataSamples, given: argparse.Namespace, report: Progress) -> Samples:
+    return Samples._of(samples, given.threads, progress=part(report, 0.0, 0.3))
+
+
 def contoured(given: argparse.Namespace, report: Progress) -> Isosurface:
     samples = read_samples(given.file, [given.array], given.columns)
     samples.values = as_numpy(samples.arrays.pop(given.array))
@@ -60,22 +65,20 @@ def contoured(given: argparse.Namespace, report: Progress) -> Isosurface:
                          f" {given.array}:x, or {given.array}:magnitude")
     samples.name = samples.maker.scalars = given.array
     samples.are_float = samples.values.dtype == np.float32
-    kept = Samples._of(samples, given.threads, progress=part(report, 0.0, 0.5))
-    return kept.contour(given.isovalues, triangles=not given.points, progress=part(report, 0.5, 1.0),
-                        **({"capping": True} if given.capping else {}), **dict(given.option))
+    return loaded(samples, given, report).contour(
+        given.isovalues, triangles=not given.points, progress=part(report, 0.3, 1.0),
+        **({"capping": True} if given.capping else {}), **dict(given.option))
 
 
 def body(given: argparse.Namespace, report: Progress) -> Isosurface:
-    samples = Samples._of(read_samples(given.file, given.arrays, given.columns), given.threads,
-                          progress=part(report, 0.0, 0.2))
-    return samples.body(arrays=given.arrays or None, progress=part(report, 0.2, 1.0), **dict(given.option))
+    samples = loaded(read_samples(given.file, given.arrays, given.columns), given, report)
+    return samples.body(arrays=given.arrays or None, progress=part(report, 0.3, 1.0), **dict(given.option))
 
 
 def sliced(given: argparse.Namespace, report: Progress) -> Isosurface:
-    samples = Samples._of(read_samples(given.file, given.arrays, given.columns), given.threads,
-                          progress=part(report, 0.0, 0.2))
+    samples = loaded(read_samples(given.file, given.arrays, given.columns), given, report)
     return samples.slice(given.normal, given.origin, arrays=given.arrays or None, offsets=given.offsets,
-                         interpolation=given.interpolation, progress=part(report, 0.2, 1.0), **dict(given.option))
+                         interpolation=given.interpolation, progress=part(report, 0.3, 1.0), **dict(given.option))
 
 
 def probed(given: argparse.Namespace, report: Progress) -> Isosurface:
@@ -84,9 +87,9 @@ def probed(given: argparse.Namespace, report: Progress) -> Isosurface:
     if not names:
         raise ValueError(f"{given.file} has no arrays of numbers to interpolate")
     places, found = places_of(given, as_numpy(samples.positions))
-    kept = Samples._of(samples, given.threads, progress=part(report, 0.0, 0.3))
-    values = kept.probe(places, arrays=names, gradient=given.gradient, method=given.method, outside=given.outside,
-                        progress=part(report, 0.3, 1.0))
+    values = loaded(samples, given, report).probe(
+        places, arrays=names, gradient=given.gradient, method=given.method, outside=given.outside,
+        progress=part(report, 0.3, 1.0))
     values, gradients = values if given.gradient else (values, {})
     found.update(values, **{f"{name}_gradient": array for name, array in gradients.items()})
     return Isosurface(places, arrays=found, make_polydata=PolyDataMaker(normals=None))

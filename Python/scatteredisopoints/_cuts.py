@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Any, Callable, Optional, Union
 
 import numpy as np
@@ -14,46 +15,30 @@ Normal = Union[str, Any]
 """The name of an axis, such as "x" or "-x", or three numbers."""
 
 
+@dataclass(frozen=True)
 class Cut:
     """An implicit function whose level sets are slices."""
 
-    key: Any
-    """Cuts of equal keys, except None, have equal values everywhere."""
-
-    is_plane: bool
-
-    def at(self, places: np.ndarray) -> np.ndarray:
-        """The values at places of float64, shape (n, 3)."""
-        raise NotImplementedError
+    at: Callable[[np.ndarray], np.ndarray]
+    """The values at places of float64, shape (n, 3)."""
+    normal: Optional[tuple[float, ...]] = None
+    """Of a plane, whose function is dot(place, normal). Other functions may change from call to call."""
 
 
-class Plane(Cut):
-    """The function dot(place, normal)."""
-
-    is_plane = True
-
-    def __init__(self, normal: np.ndarray):
-        self.normal = self.key = tuple(normal.tolist())
-
-    def at(self, places: np.ndarray) -> np.ndarray:
-        # Not as a product of matrices, whose rounding depends on the library and its threads.
-        x, y, z = self.normal
-        return places[:, 0] * x + places[:, 1] * y + places[:, 2] * z
+def by_plane(normal: np.ndarray) -> Cut:
+    x, y, z = numbers = tuple(normal.tolist())
+    # Not as a product of matrices, whose rounding depends on the library and its threads.
+    return Cut(lambda places: places[:, 0] * x + places[:, 1] * y + places[:, 2] * z, numbers)
 
 
-class Function(Cut):
-    """A function of arrays of NumPy, or a vtkImplicitFunction."""
+def by_function(function: Callable[[np.ndarray], Any]) -> Cut:
+    """By a function of arrays of NumPy, or a vtkImplicitFunction."""
+    evaluate = evaluator(function) if is_implicit_function(function) else function
 
-    is_plane = False
-    key = None  # it may have changed
-
-    def __init__(self, function: Callable[[np.ndarray], Any]):
-        self.function = evaluator(function) if is_implicit_function(function) else function
-
-    def at(self, places: np.ndarray) -> np.ndarray:
+    def at(places: np.ndarray) -> np.ndarray:
         unchanged = places.view()
         unchanged.setflags(write=False)
-        values = np.asarray(self.function(unchanged))
+        values = np.asarray(evaluate(unchanged))
         if values.dtype.kind not in "fiub":
             raise TypeError(f"function returns the type {values.dtype}: it is to return real numbers")
         values = values.astype(np.float64, copy=False)
@@ -61,6 +46,8 @@ class Function(Cut):
             raise ValueError(f"function returns the shape {values.shape} for places of the shape {places.shape}: it is"
                              " to return one number for each place")
         return values
+
+    return Cut(at)
 
 
 def is_implicit_function(function: Any) -> bool:
@@ -83,7 +70,8 @@ def evaluator(function: Any) -> Callable[[np.ndarray], np.ndarray]:
     return values
 
 
-def make_cut(normal: Optional[Normal], origin: Any, function: Any, center: Callable[[], np.ndarray]) -> tuple[Cut, float]:
+def make_cut(normal: Optional[Normal], origin: Any, function: Any, center: Callable[[], np.ndarray]
+             ) -> tuple[Cut, float]:
     """What slices, and the level of the slice. Raises ValueError or TypeError for unusable arguments.
 
     Parameters
@@ -92,7 +80,7 @@ def make_cut(normal: Optional[Normal], origin: Any, function: Any, center: Calla
         Returns the default of the origin.
     """
     if function is None:
-        plane = Plane(_normal_of("x" if normal is None else normal))
+        plane = by_plane(_normal_of("x" if normal is None else normal))
         origin = center() if origin is None else three_numbers("origin", origin)
         return plane, float(plane.at(origin[None])[0])
     if normal is not None or origin is not None:
@@ -111,11 +99,11 @@ def cut_by(function: Any) -> tuple[Cut, float]:
             raise ValueError("The normal of the plane is zero. Set a direction.")
         if not math.isfinite(length) or not math.isfinite(level):
             raise ValueError("The normal or the origin of the plane is not finite. Set finite numbers.")
-        return Plane(np.array(gradient)), level
+        return by_plane(np.array(gradient)), level
     if not (callable(function) or is_implicit_function(function)):
         raise TypeError(f"function cannot be {function!r}: it is a function of places, shape (n, 3), or a"
                         " vtkImplicitFunction")
-    return Function(function), 0.0
+    return by_function(function), 0.0
 
 
 def _normal_of(normal: Normal) -> np.ndarray:

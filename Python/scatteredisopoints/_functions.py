@@ -7,6 +7,7 @@ import contextlib
 import math
 from typing import Any, Iterable, Iterator, Mapping, Optional, Union
 
+from ._arrays import levels_of
 from ._bodies import body_of
 from ._cuts import Normal
 from ._datasets import data_object, samples_for
@@ -98,12 +99,11 @@ def contour(
     """
     if values is None and data_object(positions) is None:
         raise TypeError("values are missing: one for each position")
-    if isovalues is None:
-        raise TypeError("isovalues are missing: give one or several numbers")
+    levels = levels_of("isovalues", isovalues)
     with shown_progress(progress, "Contouring") as report:
         samples = Samples(positions, values, threads=threads, progress=part(report, 0.0, 0.5))
         return samples._contour(
-            isovalues, triangles, arrays, None, part(report, 0.5, 1.0), options, stacklevel=3)
+            levels, triangles, arrays, None, part(report, 0.5, 1.0), options, stacklevel=3)
 
 
 def body(

@@ -41,8 +41,8 @@ def box_of(bounds: Any) -> np.ndarray:
 
 
 def grid_in(box: np.ndarray, dimensions: Any, spacing: Any) -> dict[str, list]:
-    """The dimensions, spacing and origin of a grid in bounds, given by its numbers of points or by their distances. Axes
-    without length have a point."""
+    """The dimensions, spacing and origin of a grid in bounds, given by its numbers of points or by their distances.
+    Axes without length have a point."""
     if (dimensions is None) == (spacing is None):
         raise TypeError("to_grid() takes either dimensions or spacing")
     sizes = box[:, 1] - box[:, 0]

@@ -21,8 +21,9 @@ if TYPE_CHECKING:
     from ._samples import Samples
 
 
-def sliced(samples: Samples, normal: Optional[Normal], origin: Any, arrays: Any, function: Any, offsets: Any, interpolation: Any,
-           threads: Optional[int], progress: Progress, options: Mapping[str, Any], stacklevel: int) -> Isosurface:
+def sliced(samples: Samples, normal: Optional[Normal], origin: Any, arrays: Any, function: Any, offsets: Any,
+           interpolation: Any, threads: Optional[int], progress: Progress, options: Mapping[str, Any], stacklevel: int
+           ) -> Isosurface:
     """Samples.slice()."""
     method = method_of_slice(interpolation)
     cut, level = make_cut(normal, origin, function, lambda: _center_of_bounds(samples))
@@ -74,7 +75,7 @@ def make_slice(samples: Samples, cut: Cut, levels: list[float], options: _librar
         held_range, skipped = samples._held_range(), _library.get_skipped_count(samples._extractor)
     points = _library.view(surface, _library.POINTS)
     found = samples._interpolated(surface, of_samples, None)
-    if not cut.is_plane and at_samples is not None and len(points):
+    if cut.normal is None and at_samples is not None and len(points):
         points = _moved_onto(samples, cut, at_samples, surface, points, of_samples, found)
     if method is not None and len(points):
         _fit(samples, points, of_samples, found, method, threads, part(report, 0.6, 1.0))
@@ -95,7 +96,7 @@ def _center_of_bounds(samples: Samples) -> np.ndarray:
 
 def _hold_cut(samples: Samples, cut: Cut, report: Any) -> Optional[np.ndarray]:
     """Loads the values of a function at the samples, unless the extractor has them. Returns what it loaded."""
-    if cut.key is not None and samples._held == cut.key:
+    if cut.normal is not None and samples._held == cut.normal:
         return None
     positions = samples._current("positions", samples._positions).astype(np.float64, copy=False)
     at_samples = cut.at(positions)
@@ -103,7 +104,7 @@ def _hold_cut(samples: Samples, cut: Cut, report: Any) -> Optional[np.ndarray]:
     if lacking:
         raise ValueError(f"The cut function is not finite at {lacking} of {samples._count} samples. Choose one that is"
                          " finite everywhere.")
-    samples._hold(cut.key, at_samples, [samples._excluded], {"progress": report})
+    samples._hold(cut.normal, at_samples, [samples._excluded], {"progress": report})
     return at_samples
 
 
@@ -133,8 +134,8 @@ def _moved_onto(samples: Samples, cut: Cut, at_samples: np.ndarray, surface: _li
 
 def _fit(samples: Samples, points: np.ndarray, of_samples: Mapping[str, Any], found: dict[str, np.ndarray],
          method: str, threads: Optional[int], report: Any) -> None:
-    """Replaces arrays at points by those of a method of probe(), where it has values. Fits extrapolate at rims: edges of slivers
-    on the convex hull are far too long for linear interpolation."""
+    """Replaces arrays at points by those of a method of probe(), where it has values. Fits extrapolate at rims: edges of
+    slivers on the convex hull are far too long for linear interpolation."""
     fitted = {name: samples._numbers_of(array, name) for name, array in of_samples.items()
               if samples._maker.uses.get(name) != _datasets.PEDIGREE_IDS}
     values, _, _ = samples._probed(points, fitted, make_probe_options(method, None), False, threads, report,

@@ -19,7 +19,7 @@ from ._options import CONSTANTS, option_names, property_name
 from ._samples import Extracted
 from ._splats import NoNormalsError, polygons_of
 from ._vtk_algorithm import (
-    Algorithm, ContourValues, ScatteredAlgorithm, fill, in_properties, with_counts, with_properties)
+    Algorithm, ContourValues, ScatteredAlgorithm, fill, with_counts, with_properties)
 from ._vtk_body import vtkScatteredBodyFilter as vtkScatteredBodyFilter
 from ._vtk_gradient import vtkScatteredGradientFilter as vtkScatteredGradientFilter
 from ._vtk_probe import vtkScatteredGridFilter as vtkScatteredGridFilter
@@ -86,11 +86,8 @@ class _Contour(ContourValues, ScatteredAlgorithm):
         choice = self._array_choice()
         samples = self._loaded(data, number, choice, lambda: _datasets.samples_of(data, *choice), (begin, half))
         options = {option: self._values[property_name(option)] for option in option_names(self._triangles)}
-        try:
-            extracted: Extracted = samples._extract(
-                self.GetValues(), self._triangles, None, options, **self._callbacks((half, end)))
-        except ValueError as error:
-            raise ValueError(in_properties(str(error), self._values["UsePanelNames"])) from None
+        extracted: Extracted = samples._extract(
+            self.GetValues(), self._triangles, None, options, **self._callbacks((half, end)))
         surface = extracted.surface
         for name, count in zip(self.COUNTS, (
                 len(samples) + samples._without_array, len(extracted.isosurface),

@@ -29,6 +29,7 @@ def with_properties(name: str, *others: str):
     that the class has already stay."""
 
     def add(cls: Any) -> Any:
+        cls.PROXY = name
         cls.PROPERTIES = {**cls.PROPERTIES, **{property_.name: property_ for property_ in properties_of(name)
                                                if property_.name not in (*others, "UseGlobalController")}}
         for property_ in cls.PROPERTIES.values():
@@ -98,6 +99,8 @@ def describe_left_out(names: Iterable[str], rule: str) -> list[_library.Message]
 class Algorithm(VTKPythonAlgorithmBase):
     """Adds what VTK's filters in C++ have and vtkPythonAlgorithm lacks."""
 
+    PROXY = ""
+    """The name of ParaView's proxy."""
     PROPERTIES: dict[str, Property] = {}
     SAMPLES_PORT = 0
     """The last input port."""
@@ -161,7 +164,7 @@ class Algorithm(VTKPythonAlgorithmBase):
             if not isinstance(error, InterruptedError):
                 self._error_code = (errno.EINVAL if isinstance(error, (ValueError, TypeError)) else
                                     errno.ENOMEM if isinstance(error, MemoryError) else UNKNOWN_ERROR)
-                self._report("ErrorEvent", str(error))
+                self._report("ErrorEvent", in_properties(str(error), self._values.get("UsePanelNames", 0)))
         return 1
 
     def _callbacks(self, part: tuple[float, float]) -> dict[str, Any]:
@@ -312,27 +315,22 @@ class ContourValues:
         self._contours = vtkContourValues()
         self._contours.SetValue(0, 0.0)
 
-    def SetValue(self, i: int, value: float) -> None:
-        self._change_contours(self._contours.SetValue, i, value)
-
-    def GetValue(self, i: int) -> float:
-        return self._contours.GetValue(i)
-
     def GetValues(self) -> list[float]:
-        return [self.GetValue(i) for i in range(self.GetNumberOfContours())]
+        return [self._contours.GetValue(i) for i in range(self._contours.GetNumberOfContours())]
 
-    def SetNumberOfContours(self, number: int) -> None:
-        self._change_contours(self._contours.SetNumberOfContours, number)
 
-    def GetNumberOfContours(self) -> int:
-        return self._contours.GetNumberOfContours()
+def _delegate(name: str) -> None:
+    """Gives ContourValues a method of vtkContourValues."""
 
-    def GenerateValues(self, number: int, *range_: Any) -> None:
-        self._change_contours(self._contours.GenerateValues, number, *range_)
-
-    def _change_contours(self, method: Any, *arguments: Any) -> None:
-        """Also calls Modified(), because GetMTime() cannot be overridden in Python."""
+    def method(self, *arguments):
         before = self._contours.GetMTime()
-        method(*arguments)
-        if self._contours.GetMTime() != before:
+        result = getattr(self._contours, name)(*arguments)
+        if self._contours.GetMTime() != before:  # because GetMTime() cannot be overridden in Python
             self.Modified()
+        return result
+
+    setattr(ContourValues, name, method)
+
+
+for _name in ("SetValue", "GetValue", "SetNumberOfContours", "GetNumberOfContours", "GenerateValues"):
+    _delegate(_name)

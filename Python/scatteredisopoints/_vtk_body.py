@@ -11,7 +11,7 @@ from . import _datasets, _library
 from ._bodies import OPTIONS, make_body
 from ._options import property_name
 from ._progress import part
-from ._vtk_algorithm import ScatteredAlgorithm, describe_left_out, in_properties, with_counts, with_properties
+from ._vtk_algorithm import ScatteredAlgorithm, describe_left_out, with_counts, with_properties
 
 LOADED = 0.2  # share of the progress
 
@@ -29,10 +29,7 @@ class vtkScatteredBodyFilter(ScatteredAlgorithm):
     def _compute(self, data: Any, output: Any) -> list[_library.Message]:
         samples = self._loaded(data, 0, None, lambda: _datasets.samples_at(data, with_arrays=True), (0.0, LOADED))
         options = {name: self._values[property_name(name)] for name in (*OPTIONS, "keep_tree")}
-        try:
-            made = make_body(samples, options, samples._arrays_of(None), None, part(self._advance, LOADED, 1.0))
-        except ValueError as error:
-            raise ValueError(in_properties(str(error), self._values["UsePanelNames"])) from None
+        made = make_body(samples, options, samples._arrays_of(None), None, part(self._advance, LOADED, 1.0))
         output.ShallowCopy(made.isosurface.polydata)
         self._count_samples(samples)
         self._counts["ExtractedPoints"] = len(made.isosurface)

@@ -14,7 +14,7 @@ from ._option_types import SliceOptions
 from ._options import make_slice_options, method_of_slice, property_name
 from ._progress import part
 from ._slices import Slice, make_slice
-from ._vtk_algorithm import ContourValues, ScatteredAlgorithm, describe_left_out, in_properties, with_counts, with_properties
+from ._vtk_algorithm import ContourValues, ScatteredAlgorithm, describe_left_out, with_counts, with_properties
 
 INTERPOLATIONS = ("fits", "linear", "nearest")
 LOADED = 0.2  # share of the progress
@@ -57,12 +57,9 @@ class vtkScatteredSliceFilter(ContourValues, ScatteredAlgorithm):
         levels = [level + value for value in self.GetValues()]
         options = make_slice_options({name: self._values[property_name(name)] for name in SliceOptions.__annotations__})
         options.keep_tetrahedra = self._values["KeepTree"]
-        try:
-            made = make_slice(samples, cut, levels, options, samples._arrays_of(None),
-                              method_of_slice(INTERPOLATIONS[self._values["Interpolation"]]), None,
-                              part(self._advance, LOADED, 1.0))
-        except ValueError as error:
-            raise ValueError(in_properties(str(error), self._values["UsePanelNames"])) from None
+        made = make_slice(samples, cut, levels, options, samples._arrays_of(None),
+                          method_of_slice(INTERPOLATIONS[self._values["Interpolation"]]), None,
+                          part(self._advance, LOADED, 1.0))
         output.ShallowCopy(made.isosurface.polydata)
         self._count_samples(samples)
         self._counts["ExtractedPoints"] = len(made.isosurface)

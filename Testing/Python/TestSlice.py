@@ -188,7 +188,7 @@ class Calls(unittest.TestCase):
                 (dict(function=moves_places), ValueError, "read-only"),
                 (dict(offsets=np.nan), ValueError, "An offset is not a number"),
                 (dict(interpolation="cubic"), ValueError, '"linear" or "nearest"'), (dict(angle=3), TypeError, "angle"),
-                (dict(offsets=None), TypeError, "offsets are None, not numbers"), (dict(threads=0), ValueError, "threads")):
+                (dict(offsets=None), TypeError, "offsets are missing"), (dict(threads=0), ValueError, "threads")):
             with self.subTest(text), self.assertRaisesRegex(error, text):
                 slice_samples(POSITIONS, arrays=POSITIONS, **options)
 

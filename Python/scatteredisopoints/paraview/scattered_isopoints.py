@@ -51,48 +51,12 @@ def _adapted(name):
     return ElementTree.tostring(root, encoding="unicode")
 
 
-class ScatteredIsopoints(_vtk.vtkScatteredIsopointFilter):
-    """Isosurfaces as points, with the polygons that show them."""
-
-    _has_polygons = True
-
-
-class ScatteredIsosurface(_vtk.vtkScatteredIsosurfaceFilter):
-    """Isosurfaces as triangles."""
-
-
-class IsopointSplatPolygons(_vtk.vtkIsopointSplatPolygons):
-    """The polygons of isopoints."""
-
-
-class ScatteredProbe(_vtk.vtkScatteredProbeFilter):
-    """Values at the points of a data set."""
-
-
-class ScatteredLine(_vtk.vtkScatteredLineFilter):
-    """Values along a line."""
-
-
-class ScatteredGrid(_vtk.vtkScatteredGridFilter):
-    """Values at the points of an image."""
-
-
-class ScatteredGradient(_vtk.vtkScatteredGradientFilter):
-    """Derivatives at the samples."""
-
-
-class ScatteredSlice(_vtk.vtkScatteredSliceFilter):
-    """Slices as triangles."""
-
-
-class ScatteredBody(_vtk.vtkScatteredBodyFilter):
-    """The closed surface of all samples."""
-
-
-if "ScatteredIsopoints" in loaded_plugins():
+_IS_LOADED = "ScatteredIsopoints" in loaded_plugins()
+if _IS_LOADED:
     print("ScatteredIsopoints, the compiled plugin, is loaded already: the one in Python adds nothing.")
-    ScatteredIsopoints._pvsm_proxy_xml = "<ServerManagerConfiguration />"  # ParaView 6 wants a class with XML
-else:
-    for _class in (ScatteredIsopoints, ScatteredIsosurface, IsopointSplatPolygons, ScatteredProbe, ScatteredLine,
-                   ScatteredGrid, ScatteredGradient, ScatteredSlice, ScatteredBody):
-        _class._pvsm_proxy_xml = _adapted(_class.__name__)
+for _filter in (_vtk.vtkScatteredIsopointFilter, _vtk.vtkScatteredIsosurfaceFilter, _vtk.vtkIsopointSplatPolygons,
+                _vtk.vtkScatteredProbeFilter, _vtk.vtkScatteredLineFilter, _vtk.vtkScatteredGridFilter,
+                _vtk.vtkScatteredGradientFilter, _vtk.vtkScatteredSliceFilter, _vtk.vtkScatteredBodyFilter):
+    globals()[_filter.PROXY] = type(_filter.PROXY, (_filter,), {  # ParaView 6 wants a class with XML
+        "_pvsm_proxy_xml": "<ServerManagerConfiguration />" if _IS_LOADED else _adapted(_filter.PROXY),
+        "_has_polygons": True})
