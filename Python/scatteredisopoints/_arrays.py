@@ -12,6 +12,8 @@ import numpy as np
 BIT, UNSIGNED_CHAR, FLOAT = 1, 3, 10
 POINT, CELL = 0, 1
 
+MAPPING_NEEDED = "arrays are a mapping of names, which are strings, to arrays"
+
 
 def package_of(vtk_object: Any) -> str:
     """The name of the package with the class of an object of VTK: vtkmodules, cvista."""
@@ -50,7 +52,10 @@ def readable(name: str, array: Any) -> np.ndarray:
     is_masked = isinstance(array, np.ma.MaskedArray) and array.dtype.kind in "fiub"
     if is_masked and np.ma.is_masked(array):
         array = array.astype(np.result_type(array.dtype, np.float32)).filled(np.nan)
-    result = np.asarray(array)
+    try:
+        result = np.asarray(array)
+    except ValueError as error:  # of lists of different lengths
+        raise ValueError(f"{name} are no array of numbers: {error}") from None
     if result.dtype == bool:
         result = result.astype(np.uint8)
     elif result.dtype == np.float16:
@@ -60,7 +65,8 @@ def readable(name: str, array: Any) -> np.ndarray:
     if result.dtype.kind == "O" and result.ndim == 0:
         raise TypeError(f"{name} cannot be {'None' if array is None else 'a ' + type(array).__name__}: give numbers")
     if result.dtype.kind not in "fiu":
-        remedy = ": convert them, as by astype(float)" if result.dtype.kind == "O" else ""
+        remedy = {"O": ": convert them, as by astype(float)", "U": ": names are strings, for arrays of a data set"}.get(
+            result.dtype.kind, "")
         raise TypeError(f"{name} are of the type {result.dtype}, not real numbers{remedy}")
     result = np.asarray(result, dtype=result.dtype.newbyteorder("="))
     if 0 in result.strides or not result.flags.aligned:
@@ -115,12 +121,15 @@ def tensors(name: str, array: Any, count: int) -> np.ndarray:
     """An array of the samples with any number of components, in shape (count, ...)."""
     result = readable(name, array)
     if result.ndim < 1 or len(result) != count or 0 in result.shape:
-        raise ValueError(f"{name} have the shape {result.shape}, not ({count},) or ({count}, components)")
+        remedy = ": give several arrays as a mapping of names to them" if result.shape[1:2] == (count,) else ""
+        raise ValueError(f"{name} have the shape {result.shape}, not ({count},) or ({count}, components){remedy}")
     return result
 
 
 def are_names(arrays: Any) -> bool:
     """Whether several arrays are given by their names."""
+    if isinstance(arrays, np.ndarray):
+        return arrays.ndim == 1 and arrays.size > 0 and arrays.dtype.kind == "U"
     return isinstance(arrays, (list, tuple)) and len(arrays) > 0 and all(isinstance(name, str) for name in arrays)
 
 
@@ -129,7 +138,7 @@ def by_name(arrays: Any) -> Mapping[str, Any]:
     if isinstance(arrays, str) or are_names(arrays):
         return {name: name for name in ([arrays] if isinstance(arrays, str) else arrays)}
     if isinstance(arrays, Mapping) and not all(isinstance(name, str) for name in arrays):
-        raise TypeError("arrays are a mapping of names, which are strings, to arrays")
+        raise TypeError(MAPPING_NEEDED)
     return arrays if isinstance(arrays, Mapping) else {"values": arrays}
 
 
@@ -137,11 +146,11 @@ def further_arrays(arrays: Optional[Mapping[str, Any]], count: int) -> dict[str,
     """Arrays of the samples by name, except the values."""
     if arrays is None:
         return {}
-    if not isinstance(arrays, Mapping) or not all(isinstance(name, str) for name in arrays):
-        raise TypeError("arrays are to be a mapping of names to arrays")
+    if not isinstance(arrays, Mapping):
+        raise TypeError(MAPPING_NEEDED)
     if "values" in arrays:
         raise ValueError('an array cannot have the name "values", which is that of the values')
-    return {name: column(name, array, count) for name, array in arrays.items()}
+    return {name: column(name, array, count) for name, array in by_name(arrays).items()}
 
 
 def levels_of(name: str, given: Union[float, Iterable[float]]) -> list[float]:

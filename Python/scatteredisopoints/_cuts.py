@@ -10,6 +10,7 @@ from typing import Any, Callable, Optional, Union
 import numpy as np
 
 from ._arrays import as_numpy, module_of
+from ._options import shown
 
 Normal = Union[str, Any]
 """The name of an axis, such as "x" or "-x", or three numbers."""
@@ -101,32 +102,33 @@ def cut_by(function: Any) -> tuple[Cut, float]:
             raise ValueError("The normal or the origin of the plane is not finite. Set finite numbers.")
         return by_plane(np.array(gradient)), level
     if not (callable(function) or is_implicit_function(function)):
-        raise TypeError(f"function cannot be {function!r}: it is a function of places, shape (n, 3), or a"
+        raise TypeError(f"function cannot be {shown(function)}: it is a function of places, shape (n, 3), or a"
                         " vtkImplicitFunction")
     return by_function(function), 0.0
 
 
+_AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0),
+         "-x": (-1.0, 0.0, 0.0), "-y": (0.0, -1.0, 0.0), "-z": (0.0, 0.0, -1.0)}
+
+
 def _normal_of(normal: Normal) -> np.ndarray:
-    if isinstance(normal, str):
-        axis = "xyz".find(normal[-1:].lower()) if len(normal) in (1, 2) and normal[:-1] in ("", "-", "+") else -1
-        if axis < 0:
-            raise ValueError(f'normal cannot be {normal!r}: it is "x", "y", "z", "-x", "-y", "-z" or three numbers')
-        return np.eye(3)[axis] * (-1.0 if normal[0] == "-" else 1.0) + 0.0  # no negative zeros
-    numbers = three_numbers("normal", normal)
+    if isinstance(normal, str) and normal.lower() in _AXES:
+        return np.array(_AXES[normal.lower()])
+    numbers = three_numbers("normal", normal, f"it is {', '.join(_AXES)}, or three finite numbers")
     length = math.hypot(*numbers)
     if not 0.0 < length < math.inf:
         raise ValueError(f"normal cannot be {normal!r}: its length is {length}")
     return numbers / length
 
 
-def three_numbers(name: str, value: Any) -> np.ndarray:
+def three_numbers(name: str, value: Any, kind: str = "it has three finite numbers") -> np.ndarray:
     """A place or a direction. Raises ValueError for other values."""
     try:
         numbers = np.array(value, dtype=np.float64)
     except (TypeError, ValueError):
         numbers = np.empty(0)
     if numbers.shape != (3,) or not np.isfinite(numbers).all():
-        raise ValueError(f"{name} cannot be {value!r}: it has three finite numbers")
+        raise ValueError(f"{name} cannot be {shown(value)}: {kind}")
     return numbers
 
 

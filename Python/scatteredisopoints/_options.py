@@ -40,8 +40,14 @@ def option_names(triangles: bool) -> list[str]:
 def named(name: str, value: Any, choices: Mapping[str, Any]) -> Any:
     """What a name in upper or lower case stands for. Raises ValueError if it is none of the choices."""
     if not isinstance(value, str) or value.lower() not in choices:
-        raise ValueError(f"{name} cannot be {value!r}: it is {_listed(choices)}")
+        raise ValueError(f"{name} cannot be {shown(value)}: it is {_listed(choices)}")
     return choices[value.lower()]
+
+
+def shown(value: Any) -> str:
+    """A wrong value in a message: itself, or the type of a long one, such as an array."""
+    text = repr(value)
+    return text if len(text) <= 80 else f"of the type {type(value).__name__}"
 
 
 def _listed(names: Iterable[str]) -> str:
@@ -58,9 +64,9 @@ def check_names(given: Iterable[str], names: Collection[str]) -> None:
 
 def make_options(triangles: bool, given: Mapping[str, Any]) -> Options:
     """Raises TypeError for unknown options and ValueError for invalid values. The library checks ranges."""
-    names = [*option_names(triangles), "gradient_direction"]
     options = Options()
     options.triangles = int(switch("triangles", triangles))
+    names = [*option_names(triangles), "gradient_direction"]
     for name, value in given.items():
         if name not in names:
             raise _unknown_option(name, triangles)
@@ -91,7 +97,7 @@ def make_probe_options(method: Any, outside: Any) -> ProbeOptions:
     elif isinstance(outside, (float, int, np.floating, np.integer)) and not isinstance(outside, bool):
         options.outside_number = number_of("outside", outside, math.nan)
     else:
-        raise ValueError(f'outside cannot be {outside!r}: it is a number, "nearest", or None for no mask')
+        raise ValueError(f'outside cannot be {shown(outside)}: it is a number, "nearest", or None for no mask')
     return options
 
 
@@ -115,9 +121,9 @@ def thread_count(threads: Optional[int]) -> int:
     if threads is None:
         return 0
     remedy = "give a whole number, 1 or more, or None for all cores"
-    if not hasattr(threads, "__index__"):
-        raise TypeError(f"threads cannot be {threads!r}: {remedy}")
-    if isinstance(threads, bool) or operator.index(threads) < 1:
+    if isinstance(threads, bool) or not hasattr(threads, "__index__"):
+        raise TypeError(f"threads cannot be {shown(threads)}: {remedy}")
+    if operator.index(threads) < 1:
         raise ValueError(f"threads are {threads}: {remedy}")
     return min(operator.index(threads), 2**31 - 1)
 
@@ -142,7 +148,7 @@ def _unknown_option(name: str, triangles: bool) -> TypeError:
 def switch(name: str, value: Any) -> bool:
     """Raises ValueError unless the value is true or false, as a bool or a number."""
     if not isinstance(value, (bool, int, np.bool_, np.integer)) or value not in (0, 1):
-        raise ValueError(f"{name} cannot be {value!r}: it is True or False")
+        raise ValueError(f"{name} cannot be {shown(value)}: it is True or False")
     return bool(value)
 
 
@@ -153,7 +159,7 @@ def number_of(name: str, value: Any, default: Any) -> Any:
         return int(switch(name, value))
     constants = CONSTANTS.get(name, {})
     kind = _listed(constants) if constants else "a real number" if isinstance(default, float) else "a whole number"
-    error = ValueError(f"{name} cannot be {value!r}: it is {kind}")
+    error = ValueError(f"{name} cannot be {shown(value)}: it is {kind}")
     if name == "projection" and value is None:
         value = "no_projection"
     if isinstance(value, str):

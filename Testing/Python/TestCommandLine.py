@@ -154,8 +154,8 @@ class CommandLine(unittest.TestCase):
 
     def test_slices(self):
         for arguments, options in (
-                ((), {}), (("--normal", "-z", "--origin", "0,0,0.3"), dict(normal="-z", origin=(0, 0, 0.3))),
-                (("--offsets", "-0.1,0.1", "--normal", "-1,1,0", "--interpolation", "linear"),
+                ((), {}), (("--normal", "-Z", "--origin", "0,0,0.3"), dict(normal="-z", origin=(0, 0, 0.3))),
+                (("--offsets", "-0.1,0.1", "--normal", "-1,1,0", "--interpolation", "Linear"),
                  dict(offsets=[-0.1, 0.1], normal=(-1, 1, 0), interpolation="linear"))):
             expected = slice_samples(POSITIONS, arrays={"T": VALUES, "velocity": POSITIONS * [1, 2, 3]}, **options)
             for order in (("slice", "a.npz", "T", "velocity", *arguments), ("slice", *arguments, "a.npz"),
@@ -176,7 +176,7 @@ class CommandLine(unittest.TestCase):
                 (("--at", "0.2,0.3,0.4", "--at=-0.5,-.5,1e-1"), [[0.2, 0.3, 0.4], [-0.5, -0.5, 0.1]]),
                 (("--line", "0.2,0.2,0.2", "0.8,0.5,0.5", "--resolution", 4), line), (("--grid", "2,3,4"), grid),
                 (("--places", "places.npy"), line[1:])):
-            found = self.made("probe", "a.npz", "--gradient", "--outside", "nearest", *arguments)
+            found = self.made("probe", "a.npz", "--gradient", "--outside", "NEAREST", "--method", "Blend", *arguments)
             np.testing.assert_allclose(found["points"], places, atol=1e-15)
             values, gradients = probe(POSITIONS, arrays, found["points"], gradient=True, outside="nearest")
             for name in arrays:

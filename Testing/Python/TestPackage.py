@@ -202,6 +202,8 @@ class Arrays(unittest.TestCase):
                 ((positions, values[:99]), ValueError, r"\(99,\).*\(100,\)"),
                 ((positions, positions), ValueError, r"values.*\(100, 3\)"),
                 ((positions, None), TypeError, "values.*missing"),
+                ((positions.tolist() + [[1.0]], values), (ValueError, TypeError), "^positions are (no array|of the type ob)"),
+                ((positions, "T"), TypeError, "^values are of the type <U1, not real numbers: names are strings"),
                 ((positions * 1j, values), TypeError, "positions.*complex128"),
                 ((positions, ["a"] * 100), TypeError, "values.*type"),
                 ((positions, np.full(100, None)), TypeError, "values.*object"),
@@ -214,7 +216,8 @@ class Arrays(unittest.TestCase):
                 (dict(threads=0), ValueError, "threads"),
                 *((dict(threads=wrong), TypeError, f"threads cannot be {wrong!r}: give a whole number")
                   for wrong in (2.0, "4")),
-                (dict(progress=3), TypeError, "progress"), (dict(triangles="no"), ValueError, "triangles"),
+                (dict(progress=3), TypeError, "progress"), *((dict(triangles=wrong), ValueError, "^triangles cannot be .*: it is True or False")
+                  for wrong in ("no", np.array([True, False]))),
                 *((dict(projection=wrong), ValueError, "projection") for wrong in (True, "cubes", 1.5)),
                 (dict(arrays={"a": values[:3]}), ValueError, "shape"), (dict(arrays=[values]), TypeError, "mapping"),
                 (dict(arrays={"values": values}), ValueError, "name"), (dict(gap=2), TypeError, "gap.*drop_gaps"),

@@ -210,6 +210,8 @@ class Calls(unittest.TestCase):
                 ((POSITIONS, values, None), TypeError, "places cannot be None: give numbers"),
                 ((POSITIONS, 7 * [None], PLACES), TypeError, "values are of the type object"),
                 ((POSITIONS, [], PLACES), ValueError, r"\(0,\)"),
+                ((POSITIONS, [values, values], PLACES), ValueError, r"\(2, 6000\), .*give several arrays as a mapping"),
+                ((POSITIONS, np.array(["T", "p"]), PLACES), ValueError, 'no array "T"'),
                 ((POSITIONS, "T", PLACES), ValueError, '"T": give its numbers'),
                 ((POSITIONS, 1j * values, PLACES), TypeError, "complex"),
                 ((POSITIONS[:0], values[:0], PLACES), ValueError, "no samples")):

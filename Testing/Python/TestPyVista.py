@@ -107,7 +107,7 @@ class Accessor(unittest.TestCase):
         data = grid()
         data.cell_data["distance"] = data.cell_data["of cells"] + 0.1
         of_points = data.scattered.contour([1.0], "distance")
-        of_cells = data.scattered.contour([1.1], "distance", preference="cell")
+        of_cells = data.scattered.contour([1.1], "distance", preference="CELL")
         self.assertNotEqual(of_points.n_points, of_cells.n_points)
         self.assertEqual(of_cells.n_points, data.scattered.contour([1.0], "of cells").n_points)
         with self.assertRaisesRegex(ValueError, "preference cannot be 'both'"):
@@ -169,6 +169,9 @@ class Accessor(unittest.TestCase):
         for _ in range(2):
             np.testing.assert_array_equal(data.scattered.contour([0.3], keep_tree=False).points, expected.points)
             self.assertNotIn(id(data), _pyvista._kept)
+        for threads in (1, None):
+            data.scattered.contour([0.3], threads=threads)
+            self.assertEqual(_pyvista._kept[id(data)][2]._threads, threads)
         with self.assertRaisesRegex(ValueError, "threads are 0"):
             data.scattered.contour([0.3], threads=0)
         points = data.scattered.contour([0.3], triangles=False)

@@ -177,7 +177,9 @@ class Calls(unittest.TestCase):
 
     def test_wrong_arguments(self):
         for options, error, text in (
-                (dict(normal="w"), ValueError, '"-x"'), (dict(normal=(0, 0, 0)), ValueError, "length is 0"),
+                (dict(normal="w"), ValueError, "^normal cannot be 'w': it is x, y, z, -x, .* or three finite numbers"),
+                (dict(normal={"T": POSITIONS}), ValueError, "^normal cannot be of the type dict: it is x"),
+                (dict(normal=(0, 0, 0)), ValueError, "length is 0"),
                 (dict(normal=(1, 2)), ValueError, "three"), (dict(origin=(1, np.nan, 2)), ValueError, "origin.*finite"),
                 (dict(function=3), TypeError, "function"), (dict(function=ball, origin=[0, 0, 0]), TypeError, "origin"),
                 (dict(function=ball, normal="x"), TypeError, "normal"),
