@@ -44,10 +44,10 @@ _MODULES = {
 
 if TYPE_CHECKING:
     _any: Any = None
-    ray_trace = vtkIsopointPolygonMapper = vtkIsopointRayTracer = vtkIsopointSplatMapper = vtkIsopointSplatPolygons = _any
-    vtkScatteredAlgorithm = vtkScatteredBodyFilter = vtkScatteredContourFilter = vtkScatteredGradientFilter = _any
-    vtkScatteredGridFilter = vtkScatteredIsopointFilter = vtkScatteredIsosurfaceFilter = vtkScatteredLineFilter = _any
-    vtkScatteredProbeFilter = vtkScatteredSliceFilter = vtkScatteredSurfaceFilter = _any
+    ray_trace = vtkIsopointPolygonMapper = vtkIsopointRayTracer = vtkIsopointSplatMapper = _any
+    vtkIsopointSplatPolygons = vtkScatteredAlgorithm = vtkScatteredBodyFilter = vtkScatteredContourFilter = _any
+    vtkScatteredGradientFilter = vtkScatteredGridFilter = vtkScatteredIsopointFilter = vtkScatteredIsosurfaceFilter = _any
+    vtkScatteredLineFilter = vtkScatteredProbeFilter = vtkScatteredSliceFilter = vtkScatteredSurfaceFilter = _any
 else:
     def __getattr__(name):
         if name == "__all__":

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import ast
+import functools
 import math
 import os
 import re
@@ -20,7 +21,7 @@ from ._arrays import as_numpy
 from ._datasets import DataSamples
 from ._isosurface import Isosurface
 from ._lines_and_grids import lattice, line_between
-from ._options import CONSTANTS
+from ._options import CONSTANTS, INTERPOLATIONS
 from ._paths import PYTHON_PLUGIN
 from ._polydata import PolyDataMaker
 from ._progress import Progress, part
@@ -148,32 +149,35 @@ def option(text: str) -> tuple[str, Any]:
         return name, value
 
 
+def add_command(commands: Any, name: str, function: Any, summary: str, out: str, *examples: str
+                ) -> argparse.ArgumentParser:
+    """Adds a command with the arguments that all have."""
+    text = "".join(f"  {PROGRAM} {name} {each}\n" for each in examples)
+    added = commands.add_parser(
+        name, description=summary, help=summary, epilog=f"examples:\n{text}{FILES}", allow_abbrev=False,
+        formatter_class=argparse.RawDescriptionHelpFormatter)
+    added.set_defaults(command=name, function=function, error=added.error)
+    added.add_argument("file", metavar="FILE", help="the samples")
+    added.add_argument("-o", dest="out", metavar="OUT", help=f"default: {out}")
+    added.add_argument("--columns", metavar="X,Y,Z", type=lambda text: text.split(","),
+                       help="the columns of a table that are coordinates")
+    added.add_argument("--threads", metavar="N", type=positive_integer, help="default: all cores")
+    if name != "contour":
+        added.set_defaults(points=name == "probe")
+        added.add_argument("arrays", metavar="ARRAY", nargs="*", help="default: all")
+    if name != "probe":
+        added.add_argument("--option", metavar="NAME=VALUE", action="append", type=option, default=[],
+                           help="a further property, such as drop_gaps=False; docs/python.md lists them")
+    return added
+
+
 def make_parsers() -> tuple[argparse.ArgumentParser, dict[str, argparse.ArgumentParser]]:
     """The parser of all arguments, and those of the commands."""
     parser = argparse.ArgumentParser(PROGRAM, description="Isosurfaces straight from scattered samples.",
                                      epilog=f"{PROGRAM} COMMAND --help describes a command.")
     parser.add_argument("--version", action="version", version=__version__)
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
-
-    def command(name: str, function: Any, summary: str, out: str, *examples: str) -> argparse.ArgumentParser:
-        text = "".join(f"  {PROGRAM} {name} {each}\n" for each in examples)
-        added = commands.add_parser(
-            name, description=summary, help=summary, epilog=f"examples:\n{text}{FILES}", allow_abbrev=False,
-            formatter_class=argparse.RawDescriptionHelpFormatter)
-        added.set_defaults(command=name, function=function, error=added.error)
-        added.add_argument("file", metavar="FILE", help="the samples")
-        added.add_argument("-o", dest="out", metavar="OUT", help=f"default: {out}")
-        added.add_argument("--columns", metavar="X,Y,Z", type=lambda text: text.split(","),
-                           help="the columns of a table that are coordinates")
-        added.add_argument("--threads", metavar="N", type=positive_integer, help="default: all cores")
-        if name != "contour":
-            added.set_defaults(points=name == "probe")
-            added.add_argument("arrays", metavar="ARRAY", nargs="*", help="default: all")
-        if name != "probe":
-            added.add_argument("--option", metavar="NAME=VALUE", action="append", type=option, default=[],
-                               help="a further property, such as drop_gaps=False; docs/python.md lists them")
-        return added
-
+    command = functools.partial(add_command, commands)
     beside = "FILE's name with _{}.ply, in this folder"
     added = command("contour", contoured, "Isosurfaces, as triangles or points.", beside.format("contour"),
                     "samples.csv temperature 300 350", "flow.vtu velocity:magnitude 0.5 -o surface.stl",
@@ -189,7 +193,7 @@ def make_parsers() -> tuple[argparse.ArgumentParser, dict[str, argparse.Argument
     added.add_argument("--normal", type=direction, default="x", help="x, y, z, -x, -y, -z, or numbers such as 1,1,0")
     added.add_argument("--origin", type=numbers(3), metavar="X,Y,Z", help="default: the center of the bounds")
     added.add_argument("--offsets", type=numbers(), default=[0.0], metavar="D,...", help="distances along the normal")
-    added.add_argument("--interpolation", type=str.lower, choices=("fits", "linear", "nearest"), default="fits")
+    added.add_argument("--interpolation", type=str.lower, choices=tuple(INTERPOLATIONS), default="fits")
     added = command("probe", probed, "Values at places.", "CSV to stdout", "samples.csv temperature --at 0,0,0.5",
                     "flow.vtu velocity --line 0,0,0 1,0,0 --resolution 100 -o line.csv",
                     "samples.npz --grid 50,50,50 --gradient -o grid.npz")

@@ -23,6 +23,9 @@ CONSTANTS = {
     "output_points_precision": {"single_precision": 0, "double_precision": 1, "default_precision": 2},
 }
 
+INTERPOLATIONS = {"fits": "blend", "linear": None, "nearest": "nearest"}
+"""The methods of probe() for the arrays of slices, in the order of VTK's constants; None: linear."""
+
 _PARAMETERS = ("arrays", "isovalues", "progress", "threads", "triangles")  # of contour(), which are no options
 
 
@@ -108,11 +111,6 @@ def make_slice_options(given: Mapping[str, Any]) -> Options:
     options = make_options(True, {**given, "projection": None, "compute_normals": False})
     options.keep_hull_slivers = 1
     return options
-
-
-def method_of_slice(interpolation: Any) -> Optional[str]:
-    """The method of probe() for the arrays of a slice; None: linear. Raises ValueError for invalid values."""
-    return named("interpolation", interpolation, {"fits": "blend", "linear": None, "nearest": "nearest"})
 
 
 def thread_count(threads: Optional[int]) -> int:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Mapping, Optional
 
@@ -90,9 +91,10 @@ class PolyDataMaker:
 
 def as_vtk(package: str, name: str, array: np.ndarray) -> Any:
     """A VTK array that shares the memory and keeps it alive. Copies layouts that VTK does not have, and
-    read-only arrays, which numpy_to_vtk() refuses."""
+    read-only arrays, which numpy_to_vtk() refuses. Tensors become vectors."""
     support = importlib.import_module(package + ".util.numpy_support")
-    result = support.numpy_to_vtk(np.require(array, requirements=["C", "W"]))
+    table = array if array.ndim < 3 else array.reshape(len(array), math.prod(array.shape[1:]))
+    result = support.numpy_to_vtk(np.require(table, requirements=["C", "W"]))
     result.SetName(name)
     return result
 

@@ -14,7 +14,7 @@ from . import _datasets, _library
 from ._arrays import as_numpy, levels_of, readable
 from ._cuts import Cut, Normal, describe_empty, make_cut, rounded, shares_to_zero
 from ._isosurface import Isosurface, describe_not_finite
-from ._options import make_probe_options, make_slice_options, method_of_slice, thread_count
+from ._options import INTERPOLATIONS, make_probe_options, make_slice_options, named, thread_count
 from ._progress import Progress, part, shown_progress
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ def sliced(samples: Samples, normal: Optional[Normal], origin: Any, arrays: Any,
            interpolation: Any, threads: Optional[int], progress: Progress, options: Mapping[str, Any], stacklevel: int
            ) -> Isosurface:
     """Samples.slice()."""
-    method = method_of_slice(interpolation)
+    method = named("interpolation", interpolation, INTERPOLATIONS)
     cut, level = make_cut(normal, origin, function, lambda: _center_of_bounds(samples))
     levels = [level + offset for offset in levels_of("offsets", offsets)]
     if any(map(math.isnan, levels)):
@@ -134,8 +134,8 @@ def _moved_onto(samples: Samples, cut: Cut, at_samples: np.ndarray, surface: _li
 
 def _fit(samples: Samples, points: np.ndarray, of_samples: Mapping[str, Any], found: dict[str, np.ndarray],
          method: str, threads: Optional[int], report: Any) -> None:
-    """Replaces arrays at points by those of a method of probe(), where it has values. Fits extrapolate at rims: edges of
-    slivers on the convex hull are far too long for linear interpolation."""
+    """Replaces arrays at points by those of a method of probe(), where it has values. Fits extrapolate at rims: edges
+    of slivers on the convex hull are far too long for linear interpolation."""
     fitted = {name: samples._numbers_of(array, name) for name, array in of_samples.items()
               if samples._maker.uses.get(name) != _datasets.PEDIGREE_IDS}
     values, _, _ = samples._probed(points, fitted, make_probe_options(method, None), False, threads, report,

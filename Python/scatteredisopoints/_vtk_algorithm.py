@@ -21,6 +21,7 @@ from ._options import option_names, property_name
 from ._properties import Property, properties_of
 from ._samples import Samples
 
+LOADED = 0.2  # share of the progress
 UNKNOWN_ERROR = 40000 + 99  # vtkErrorCode::UnknownError
 
 
@@ -260,6 +261,10 @@ class ScatteredAlgorithm(Algorithm):
                 samples._take(found, **callbacks)
             self._kept[number] = key, samples, found.parts
         return samples
+
+    def _all_samples(self, data: Any, with_arrays: bool = True) -> Samples:
+        """The samples of all blocks, without values."""
+        return self._loaded(data, 0, None, lambda: _datasets.samples_at(data, with_arrays), (0.0, LOADED))
 
     def _array_choice(self) -> tuple[Optional[str], tuple[int, ...], int]:
         """The array to process, as samples_of() takes it: name, associations, active array."""

@@ -7,13 +7,11 @@ from typing import Any
 
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from . import _datasets, _library
+from . import _library
 from ._bodies import OPTIONS, make_body
 from ._options import property_name
 from ._progress import part
-from ._vtk_algorithm import ScatteredAlgorithm, describe_left_out, with_counts, with_properties
-
-LOADED = 0.2  # share of the progress
+from ._vtk_algorithm import LOADED, ScatteredAlgorithm, describe_left_out, with_counts, with_properties
 
 
 @with_properties("ScatteredBody")
@@ -27,7 +25,7 @@ class vtkScatteredBodyFilter(ScatteredAlgorithm):
         return vtkPolyData
 
     def _compute(self, data: Any, output: Any) -> list[_library.Message]:
-        samples = self._loaded(data, 0, None, lambda: _datasets.samples_at(data, with_arrays=True), (0.0, LOADED))
+        samples = self._all_samples(data)
         options = {name: self._values[property_name(name)] for name in (*OPTIONS, "keep_tree")}
         made = make_body(samples, options, samples._arrays_of(None), None, part(self._advance, LOADED, 1.0))
         output.ShallowCopy(made.isosurface.polydata)

@@ -14,8 +14,8 @@ from ._arrays import as_numpy, positions_of, readable
 from ._derivatives import DERIVATIVES
 from ._options import CONSTANTS
 from ._polydata import as_vtk
-from ._vtk_algorithm import fill, with_properties
-from ._vtk_probe import LOADED, PACKAGE, Probing
+from ._vtk_algorithm import LOADED, fill, with_properties
+from ._vtk_probe import PACKAGE, Probing
 
 # Derivatives by the properties that switch them on, and those of the names of their arrays.
 _SWITCHES = {"ComputeGradient": ("gradient", "ResultArrayName"),

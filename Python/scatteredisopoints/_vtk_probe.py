@@ -21,11 +21,10 @@ from ._polydata import as_vtk
 from ._progress import part
 from ._samples import Samples
 from ._shared_arrays import DOUBLE, SharedArray, shared_arrays
-from ._vtk_algorithm import ScatteredAlgorithm, describe_left_out, fill, with_properties
+from ._vtk_algorithm import LOADED, ScatteredAlgorithm, describe_left_out, fill, with_properties
 
 PACKAGE = "vtkmodules"
 MASK_POINTS, NULL_VALUE, CLOSEST_POINT = range(3)
-LOADED = 0.2  # share of the progress
 LINE_LENGTH = "arc_length"
 MOST_POINTS = 1e11  # of images, whose positions take terabytes
 
@@ -74,7 +73,8 @@ class vtkScatteredProbeFilter(Probing):
 
     def _own_arrays(self) -> set[str]:
         """The names of the arrays that the filter makes itself. Those of samples do not replace them."""
-        return {self._values["ValidPointsMaskArrayName"]} if self._values["NullPointsStrategy"] == MASK_POINTS else set()
+        return ({self._values["ValidPointsMaskArrayName"]} if self._values["NullPointsStrategy"] == MASK_POINTS
+                else set())
 
     def _make_places(self, samples: Samples, output: Any) -> None:
         """Gives the output its points, and the arrays that it has besides interpolated ones."""
@@ -104,7 +104,7 @@ class vtkScatteredProbeFilter(Probing):
             output.GetFieldData().PassData(places.GetFieldData())
 
     def _compute(self, data: Any, output: Any) -> list[_library.Message]:
-        samples = self._loaded(data, 0, None, lambda: _datasets.samples_at(data, with_arrays=False), (0.0, LOADED))
+        samples = self._all_samples(data, with_arrays=False)
         self._count_samples(samples)
         self._make_places(samples, output)
         arrays, left_out = shared_arrays(data, self._kept[0][2])
@@ -129,8 +129,8 @@ class vtkScatteredProbeFilter(Probing):
                 *self._describe_flat(kinds, "values are those at the nearest point of it."),
                 *describe_left_out(own, "The output has an array of its own with this name. Rename that of the"
                                    " samples."),
-                *describe_left_out(left_out, "Only arrays of numbers are interpolated that all blocks have, with the same"
-                                   " components.")]
+                *describe_left_out(left_out, "Only arrays of numbers are interpolated that all blocks have, with the"
+                                   " same components.")]
 
     def _add(self, blocks: list[Any], results: dict[str, tuple[SharedArray, np.ndarray, int]], are_null: np.ndarray
              ) -> None:

@@ -8,16 +8,13 @@ from typing import Any
 from vtkmodules.vtkCommonCore import vtkWeakReference
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from . import _datasets, _library
+from . import _library
 from ._cuts import cut_by, describe_empty, is_outermost
 from ._option_types import SliceOptions
-from ._options import make_slice_options, method_of_slice, property_name
+from ._options import INTERPOLATIONS, make_slice_options, property_name
 from ._progress import part
 from ._slices import Slice, make_slice
-from ._vtk_algorithm import ContourValues, ScatteredAlgorithm, describe_left_out, with_counts, with_properties
-
-INTERPOLATIONS = ("fits", "linear", "nearest")
-LOADED = 0.2  # share of the progress
+from ._vtk_algorithm import LOADED, ContourValues, ScatteredAlgorithm, describe_left_out, with_counts, with_properties
 
 
 @with_properties("ScatteredSlice")
@@ -52,13 +49,13 @@ class vtkScatteredSliceFilter(ContourValues, ScatteredAlgorithm):
     def _compute(self, data: Any, output: Any) -> list[_library.Message]:
         if self._function is None:
             raise ValueError("There is no cut function. Set a plane or another one.")
-        samples = self._loaded(data, 0, None, lambda: _datasets.samples_at(data, with_arrays=True), (0.0, LOADED))
+        samples = self._all_samples(data)
         cut, level = cut_by(self._function)
         levels = [level + value for value in self.GetValues()]
         options = make_slice_options({name: self._values[property_name(name)] for name in SliceOptions.__annotations__})
         options.keep_tetrahedra = self._values["KeepTree"]
         made = make_slice(samples, cut, levels, options, samples._arrays_of(None),
-                          method_of_slice(INTERPOLATIONS[self._values["Interpolation"]]), None,
+                          [*INTERPOLATIONS.values()][self._values["Interpolation"]], None,
                           part(self._advance, LOADED, 1.0))
         output.ShallowCopy(made.isosurface.polydata)
         self._count_samples(samples)

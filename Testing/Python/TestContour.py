@@ -309,7 +309,8 @@ class ContourTest(unittest.TestCase):
         data = cloud_of(positions, values)
         for arguments, options, error, text in (
                 ((data, values[:99]), {}, ValueError, "99 values.*100"), ((data, "speed"), {}, ValueError, "speed"),
-                ((vtkTable(), None), {}, TypeError, "vtkTable"), ((vtkTable(), values, 0.3), {}, TypeError, "convert it to points"),
+                *(((vtkTable(), each), {}, TypeError, "A vtkTable has no samples: convert it to points")
+                  for each in (None, values)),
                 ((data, values, 0.3), dict(angle=200.0), ValueError, "[aA]ngle is 200"),
                 ((data, None, 0.3), dict(arrays={"other": values}), TypeError, "add them"),
                 ((positions, values), dict(arrays={3: values}), TypeError, "mapping"),
@@ -361,6 +362,14 @@ class ContourTest(unittest.TestCase):
                      lambda: slice_samples(positions, arrays=part, interpolation="linear")):
             with self.assertWarnsRegex(RuntimeWarning, '"part" is not finite at [0-9]+ of [0-9]+ points'):
                 call()
+
+    def test_tensors(self):
+        positions, _ = samples()
+        tensors = np.einsum("ni,nj->nij", positions, positions)
+        section = slice_samples(positions, "z", arrays={"tensors": tensors}, interpolation="linear")
+        self.assertEqual(section.arrays["tensors"].shape, (len(section), 3, 3))
+        found = vtk_to_numpy(section.polydata.GetPointData().GetArray("tensors"))
+        np.testing.assert_array_equal(found, section.arrays["tensors"].reshape(-1, 9))
 
     def test_all_compiled_classes_are_exported(self):
         modules = map(scatteredisopoints._module, scatteredisopoints._COMPILED)

@@ -655,7 +655,7 @@ class FiltersInPython(Filters, unittest.TestCase):
         self.assertEqual([difference for difference in DIFFERENCES if f"- {difference}" not in text], [])
 
 
-@unittest.skipIf(scatteredisopoints.vtkScatteredIsopointFilter is _vtk.vtkScatteredIsopointFilter, "there is no compiled one")
+@unittest.skipIf(scatteredisopoints.vtkScatteredIsopointFilter is _vtk.vtkScatteredIsopointFilter, "it is not compiled")
 class CompiledFilters(Filters, unittest.TestCase):
     module = scatteredisopoints
 

@@ -202,7 +202,7 @@ class Arrays(unittest.TestCase):
                 ((positions, values[:99]), ValueError, r"\(99,\).*\(100,\)"),
                 ((positions, positions), ValueError, r"values.*\(100, 3\)"),
                 ((positions, None), TypeError, "values.*missing"),
-                ((positions.tolist() + [[1.0]], values), (ValueError, TypeError), "^positions are (no array|of the type ob)"),
+                ((positions.tolist() + [[1.0]], values), (ValueError, TypeError), "^positions are (no array|of the type)"),
                 ((positions, "T"), TypeError, "^values are of the type <U1, not real numbers: names are strings"),
                 ((positions * 1j, values), TypeError, "positions.*complex128"),
                 ((positions, ["a"] * 100), TypeError, "values.*type"),
@@ -216,7 +216,8 @@ class Arrays(unittest.TestCase):
                 (dict(threads=0), ValueError, "threads"),
                 *((dict(threads=wrong), TypeError, f"threads cannot be {wrong!r}: give a whole number")
                   for wrong in (2.0, "4")),
-                (dict(progress=3), TypeError, "progress"), *((dict(triangles=wrong), ValueError, "^triangles cannot be .*: it is True or False")
+                (dict(progress=3), TypeError, "progress"),
+                *((dict(triangles=wrong), ValueError, "^triangles cannot be .*: it is True or False")
                   for wrong in ("no", np.array([True, False]))),
                 *((dict(projection=wrong), ValueError, "projection") for wrong in (True, "cubes", 1.5)),
                 (dict(arrays={"a": values[:3]}), ValueError, "shape"), (dict(arrays=[values]), TypeError, "mapping"),
@@ -437,10 +438,13 @@ class KeptTrees(unittest.TestCase):
                 self.assertEqual(contents(samples.contour(isovalue, triangles=triangles)),
                                  contents(contour(positions, values, isovalue, triangles=triangles)))
 
-    def test_samples_take_the_parameters_of_contour(self):
-        parameters, those_of_samples = (set(inspect.signature(function).parameters)
-                                        for function in (contour, Samples.contour))
-        self.assertEqual(those_of_samples - {"self"}, parameters - {"positions", "values"})
+    def test_samples_take_the_parameters_of_functions(self):
+        for function, method, more in (
+                (contour, Samples.contour, ()), (scatteredisopoints.body, Samples.body, ()),
+                (scatteredisopoints.slice_samples, Samples.slice, ()), (probe, Samples.probe, ("arrays",))):
+            parameters, of_samples = ([name for name in inspect.signature(each).parameters if name not in left_out]
+                                      for each, left_out in ((function, ("positions", "values")), (method, more)))
+            self.assertEqual(of_samples, ["self", *parameters])
         samples = Samples(*cloud(), threads=2)
         expected = contents(samples.contour(0.3))
         self.assertEqual(contents(samples.contour(0.3, threads=1)), expected)

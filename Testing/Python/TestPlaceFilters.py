@@ -592,7 +592,7 @@ class PlaceFiltersInPython(PlaceFilters, unittest.TestCase):
     module = _vtk
 
 
-@unittest.skipIf(scatteredisopoints.vtkScatteredProbeFilter is _vtk.vtkScatteredProbeFilter, "there is no compiled one")
+@unittest.skipIf(scatteredisopoints.vtkScatteredProbeFilter is _vtk.vtkScatteredProbeFilter, "it is not compiled")
 class CompiledPlaceFilters(PlaceFilters, unittest.TestCase):
     module = scatteredisopoints
 

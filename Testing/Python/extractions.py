@@ -49,8 +49,8 @@ def filtered(positions, values, isovalues, triangles, options):
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     kind = vtkScatteredIsosurfaceFilter if triangles else vtkScatteredIsopointFilter
-    output = updated(kind, cloud_of(positions, values), isovalues, **{
-        _options.property_name(name): _options.number_of(name, value, 0) for name, value in options.items()}).GetOutput()
+    properties = {_options.property_name(name): _options.number_of(name, value, 0) for name, value in options.items()}
+    output = updated(kind, cloud_of(positions, values), isovalues, **properties).GetOutput()
     arrays, shapes = ({data.GetArrayName(i): vtk_to_numpy(data.GetArray(i)) for i in range(data.GetNumberOfArrays())}
                       for data in (output.GetPointData(), output.GetCellData()))
     return Isosurface(vtk_to_numpy(output.GetPoints().GetData()), arrays=arrays, splat_shapes=shapes,
