@@ -153,7 +153,7 @@ def further_arrays(arrays: Optional[Mapping[str, Any]], count: int) -> dict[str,
     return {name: column(name, array, count) for name, array in by_name(arrays).items()}
 
 
-def levels_of(name: str, given: Union[float, Iterable[float]]) -> list[float]:
+def levels_of(name: str, given: Union[float, Iterable[float], None]) -> list[float]:
     """One or several isovalues or offsets as a list, without masked ones."""
     if given is None:
         raise TypeError(f"{name} are missing: give one or several numbers")

@@ -101,7 +101,8 @@ def places_of(given: argparse.Namespace, positions: np.ndarray) -> tuple[np.ndar
     if given.places:
         return as_numpy(read_samples(given.places).positions), {}
     if given.line:
-        places, distances = line_between(*np.array(given.line), given.resolution)
+        begin, end = np.array(given.line)
+        places, distances = line_between(begin, end, given.resolution)
         return places, {"Distance": distances}
     if given.grid:
         finite = positions[np.isfinite(positions).all(axis=1)]

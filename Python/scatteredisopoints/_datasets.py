@@ -7,7 +7,7 @@ points and cells are samples.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Callable, Iterable, Iterator, Mapping, Optional, Sequence
 
 import numpy as np
@@ -145,10 +145,9 @@ def samples_of(
 
     def block_of(leaf: Any) -> Optional[DataSamples]:
         if are_given:
-            association, numbers, masked = given_values(data, values)
-            block = _block(leaf, association, numbers)
-            block.masked = masked
-            return block
+            association = association_of(data, np.shape(values))
+            numbers, masked = values_of(values, data.GetNumberOfElements(association))
+            return replace(_block(leaf, association, numbers), masked=masked)
         found = _find(leaf, values, associations, attribute)
         return None if found is None else _block(leaf, *found, are_values)
 
@@ -238,12 +237,6 @@ def _gathered(data: Any, block_of: Callable[[Any], Optional[DataSamples]], descr
 
 def _needs_name(data: Any) -> TypeError:
     return TypeError(f"values of a {data.GetClassName()} have to be one of its arrays: give its name")
-
-
-def given_values(data: Any, values: Any) -> tuple[int, np.ndarray, Optional[np.ndarray]]:
-    """Whether values that are given as an array are of points or of cells; and what values_of() returns."""
-    association = association_of(data, np.shape(values))
-    return (association, *values_of(values, data.GetNumberOfElements(association)))
 
 
 def association_of(data: Any, shape: tuple[int, ...]) -> int:

@@ -14,7 +14,8 @@ if TYPE_CHECKING:
 
 
 class Interpolator:
-    """Interpolates one array of kept samples, as SciPy's interpolators do: see :meth:`Samples.interpolator`."""
+    """Interpolates one array of kept samples, as SciPy's interpolators do. :meth:`Samples.interpolator` makes it: the
+    constructor is private."""
 
     def __init__(self, samples: Samples, array: Any, options: dict[str, Any]):
         self._samples = samples

@@ -21,7 +21,8 @@ from ._progress import Progress, shown_progress
 
 
 class Isosurface:
-    """Points on isosurfaces, or triangles between them. Arrays are views that keep their memory alive."""
+    """Points on isosurfaces, or triangles between them, as :func:`contour` makes them: the constructor is private.
+    Arrays are views that keep their memory alive."""
 
     points: np.ndarray
     """Positions in the unit of the input: shape (n, 3), of float32 or float64."""

@@ -40,7 +40,7 @@ def box_of(bounds: Any) -> np.ndarray:
     return box.reshape(3, 2)
 
 
-def grid_in(box: np.ndarray, dimensions: Any, spacing: Any) -> dict[str, list]:
+def grid_in(box: np.ndarray, dimensions: Any, spacing: Any) -> dict[str, Any]:
     """The dimensions, spacing and origin of a grid in bounds, given by its numbers of points or by their distances.
     Axes without length have a point."""
     if (dimensions is None) == (spacing is None):

@@ -232,10 +232,10 @@ class ScatteredAccessor:
         pyvista.PolyData
             The line, with the arrays and ``Distance`` from its begin.
         """
-        ends = three_numbers("pointa", pointa), three_numbers("pointb", pointb)
+        begin, end = three_numbers("pointa", pointa), three_numbers("pointb", pointb)
         if not hasattr(resolution, "__index__") or operator.index(resolution) < 1:
             raise ValueError(f"resolution cannot be {resolution!r}: it is a whole number, 1 or more")
-        points, distances = line_between(*ends, operator.index(resolution))
+        points, distances = line_between(begin, end, operator.index(resolution))
         line = pv.PolyData(points, lines=[len(points), *range(len(points))])
         return self._probe(line, scalars, **_options_of_probe(options), computed={"Distance": distances})
 

@@ -334,6 +334,7 @@ def _delegate(name: str) -> None:
             self.Modified()
         return result
 
+    method.__name__ = name
     setattr(ContourValues, name, method)
 
 
