@@ -46,8 +46,8 @@ if TYPE_CHECKING:
     _any: Any = None
     ray_trace = vtkIsopointPolygonMapper = vtkIsopointRayTracer = vtkIsopointSplatMapper = _any
     vtkIsopointSplatPolygons = vtkScatteredAlgorithm = vtkScatteredBodyFilter = vtkScatteredContourFilter = _any
-    vtkScatteredGradientFilter = vtkScatteredGridFilter = vtkScatteredIsopointFilter = vtkScatteredIsosurfaceFilter = _any
-    vtkScatteredLineFilter = vtkScatteredProbeFilter = vtkScatteredSliceFilter = vtkScatteredSurfaceFilter = _any
+    vtkScatteredGradientFilter = vtkScatteredGridFilter = vtkScatteredIsopointFilter = vtkScatteredLineFilter = _any
+    vtkScatteredIsosurfaceFilter = vtkScatteredProbeFilter = vtkScatteredSliceFilter = vtkScatteredSurfaceFilter = _any
 else:
     def __getattr__(name):
         if name == "__all__":

@@ -202,7 +202,7 @@ class Arrays(unittest.TestCase):
                 ((positions, values[:99]), ValueError, r"\(99,\).*\(100,\)"),
                 ((positions, positions), ValueError, r"values.*\(100, 3\)"),
                 ((positions, None), TypeError, "values.*missing"),
-                ((positions.tolist() + [[1.0]], values), (ValueError, TypeError), "^positions are (no array|of the type)"),
+                ((positions.tolist() + [[1.0]], values), (ValueError, TypeError), "^positions are (no array|of)"),
                 ((positions, "T"), TypeError, "^values are of the type <U1, not real numbers: names are strings"),
                 ((positions * 1j, values), TypeError, "positions.*complex128"),
                 ((positions, ["a"] * 100), TypeError, "values.*type"),
