@@ -71,7 +71,7 @@ public:
   explicit Samples(Cloud cloud)
     : All(std::move(cloud))
   {
-    check(isopoint_set_threads(this->Extractor, 1));
+    check(isopoint_set_extractor_threads(this->Extractor, 1));
     isopoint_initialize_options(&this->Options, sizeof(this->Options));
     this->load();
   }
@@ -103,8 +103,9 @@ public:
     const isopoint_array places = arrayOf(where.positions, 3);
     const isopoint_array values = arrayOf(this->All.values, 1);
     this->Values.resize(where.size());
-    const isopoint_probe_result probed{ this->Values.data(), nullptr };
-    check(isopoint_probe(this->Extractor, &places, &values, 1, nullptr, &probed, nullptr));
+    const isopoint_probe_result probed{ this->Values.data(), sizeof(double) * this->Values.size(),
+      nullptr, 0 };
+    check(isopoint_probe(this->Extractor, &places, &values, 1, nullptr, &probed, nullptr, 0));
   }
 
   void meshSplats() { check(isopoint_make_splat_mesh(this->Surface, 1.0)); }

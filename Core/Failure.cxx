@@ -18,12 +18,6 @@ namespace isopoint
 namespace
 {
 
-Failure outOfMemory()
-{
-  return { Failure::OutOfMemory,
-    "Out of memory. Free memory, or reduce the number of samples or of places." };
-}
-
 Failure describe()
 {
   try
@@ -51,11 +45,11 @@ Failure describe()
   }
   catch (const std::length_error&)
   {
-    return outOfMemory(); // of lists that no memory could hold
+    return { Failure::OutOfMemory, outOfMemoryText }; // of lists that no memory could hold
   }
   catch (const std::bad_alloc&)
   {
-    return outOfMemory();
+    return { Failure::OutOfMemory, outOfMemoryText };
   }
   catch (const std::exception& error)
   {

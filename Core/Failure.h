@@ -51,6 +51,10 @@ struct Failure
   bool spoilsTree() const { return this->kind == OutOfMemory || this->kind == Bug; }
 };
 
+/// For the user, of a lack of memory.
+inline constexpr const char* outOfMemoryText =
+  "Out of memory. Free memory, or reduce the number of samples or of places.";
+
 /// Describes the exception that is being handled.
 Failure describeException() noexcept;
 

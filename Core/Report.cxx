@@ -113,9 +113,10 @@ bool isInRange(const Report& report, double isovalue)
          (isovalue < report.greatest || (isovalue == report.greatest && !report.areTriangles));
 }
 
+using Reason = std::pair<Message::Codes, std::string>;
+
 /// Why an isovalue in the range has no surface, and the remedy.
-std::pair<Message::Codes, std::string> reasonOfEmptyIsovalue(
-  const Report& report, bool isInGaps, OptionNaming naming)
+Reason reasonOfEmptyIsovalue(const Report& report, bool isInGaps, OptionNaming naming)
 {
   constexpr std::uint64_t fewest = 4; // of a tetrahedron
   const std::uint64_t used = report.samples - report.skippedCount();
@@ -134,6 +135,10 @@ std::pair<Message::Codes, std::string> reasonOfEmptyIsovalue(
     return { Message::NoCrossing,
       "no block has a surface of its own. Turn " + naming("ContourBlocks") + " off." };
   }
+  if (report.subject != Report::Isosurface)
+  {
+    return { Message::NoCrossing, "the samples are in one plane. Add samples beside it." };
+  }
   return { Message::NoCrossing,
     report.areTriangles ? "no tetrahedron of the samples crosses it. Of samples in one plane, apply"
                           " Delaunay 2D and Contour."
@@ -151,19 +156,78 @@ Message describeEmptyIsovalues(
   }
   const std::string isovalues = join(empty, digitsFor(report, empty));
   const auto [code, reason] = reasonOfEmptyIsovalue(report, isInGaps, naming);
+  const std::string of = report.array.empty() ? "" : " of " + describeArray(report);
   return { "isovalues without points in " + report.array + ": " + isovalues,
-    "No isosurface at " + isovalues + ": " + reason, Message::Warning, code };
+    (report.subject == Report::Body ? "No body: " : "No isosurface at " + isovalues + of + ": ") +
+      reason,
+    Message::Warning, code };
+}
+
+/// Why slices are empty or partial. Some of several may be beside the samples.
+Message describeSlices(const Report& report, OptionNaming naming)
+{
+  // Up to rounding, as by a box in the bounds of the samples.
+  const double near = report.greatest - 1e-9 * (report.greatest - report.least);
+  const auto isAny = [&](auto is)
+  { return std::any_of(report.isovalues.begin(), report.isovalues.end(), is); };
+  const bool isOutermost =
+    isAny([&](double value) { return value >= near && value <= report.greatest; });
+  const std::string remedy = " Move it among the samples; make a box or a sphere smaller.";
+  if (report.pointCount() > 0)
+  {
+    return isOutermost ? Message{ "outermost slice",
+      "The slice is only where samples are on it, as no sample is beyond it." + remedy,
+      Message::Note, Message::OnlyAtSamples }
+                       : Message();
+  }
+  Reason reason{ Message::IsovalueOutside,
+    "all samples are on one side of it. Move it among the samples." };
+  if (report.least == report.greatest)
+  {
+    reason = { Message::ConstantValues,
+      "the cut function is the same at all samples. Choose one that has samples on both sides." };
+  }
+  else if (isOutermost)
+  {
+    reason.second = "no sample is beyond it." + remedy;
+  }
+  else if (isAny([&](double value) { return value > report.least && value < report.greatest; }))
+  {
+    reason = reasonOfEmptyIsovalue(report, report.droppedCount() > 0, naming);
+  }
+  else if (isAny([&](double value) { return value == report.least; }))
+  {
+    reason.second =
+      "samples on it count as above it, and none are below. Move it among the samples.";
+  }
+  return { "empty slice", "No slice: " + reason.second, Message::Warning, reason.first };
 }
 
 std::vector<Message> describeIsovalues(const Report& report, OptionNaming naming)
 {
+  const bool isSlice = report.subject == Report::Slice;
+  if (report.isovalues.empty())
+  {
+    return { { "no isovalues",
+      isSlice ? "No slice: there are no offsets. Set one, such as 0."
+              : "No isosurface: there are no isovalues. Set one.",
+      Message::Warning, Message::NoIsovalues } };
+  }
+  if (report.least > report.greatest) // without samples
+  {
+    return {};
+  }
+  if (isSlice)
+  {
+    return { describeSlices(report, naming) };
+  }
   std::vector<double> outside;
   std::vector<double> empty;
   std::vector<double> inGaps;
   for (std::size_t i = 0; i < report.isovalues.size(); ++i)
   {
     const double value = report.isovalues[i];
-    if (report.points[i] == 0 && report.least <= report.greatest)
+    if (report.points[i] == 0)
     {
       std::vector<double>& inside = report.dropped[i] > 0 ? inGaps : empty;
       (isInRange(report, value) ? inside : outside).push_back(value);
@@ -230,6 +294,17 @@ Message describeBeyondFloat(const Report& report)
     Message::Warning, Message::BeyondFloat };
 }
 
+Message describePieces(const Report& report)
+{
+  if (!report.isPieceOfProcess)
+  {
+    return {};
+  }
+  return { "pieces of processes",
+    "Each process yields a piece of the surface of its own samples. If the processes have"
+    " different samples, call SetController() with the global controller." };
+}
+
 std::vector<Message> describeReplacedArrays(const Report& report)
 {
   std::vector<Message> messages;
@@ -243,14 +318,22 @@ std::vector<Message> describeReplacedArrays(const Report& report)
   return messages;
 }
 
-} // namespace
-
-Message describePieces()
+std::string nameOf(Report::Subjects subject)
 {
-  return { "pieces of processes",
-    "Each process yields a piece of the surface of its own samples. If the processes have"
-    " different samples, call SetController() with the global controller." };
+  return subject == Report::Isosurface ? "isosurface" : subject == Report::Slice ? "slice" : "body";
 }
+
+Report::Subjects subjectOf(const Options& options, const std::vector<double>& isovalues)
+{
+  if (options.capping)
+  {
+    const std::vector<double> belowAll{ -std::numeric_limits<double>::infinity() };
+    return isovalues == belowAll ? Report::Body : Report::Isosurface;
+  }
+  return options.triangles && options.keepHullSlivers ? Report::Slice : Report::Isosurface;
+}
+
+} // namespace
 
 Message describeSkipped(
   const SampleCounts& counts, const std::string& ofNone, const std::string& ofSome)
@@ -262,7 +345,7 @@ Message describeSkipped(
   const std::vector<std::pair<std::uint64_t, std::string>> reasons{
     { counts.notFinite, "not finite" },
     { counts.withoutArray, "in blocks without " + describeArray(counts) },
-    { counts.excluded, counts.excludedAs },
+    { counts.excluded, "excluded" },
   };
   const std::uint64_t skipped = counts.skippedCount();
   std::vector<std::string> parts;
@@ -307,7 +390,8 @@ void SampleCounts::share(ProcessGroup& processes)
 }
 
 Report::Report(const Options& options, const std::vector<double>& sortedIsovalues)
-  : isovalues(sortedIsovalues)
+  : subject(subjectOf(options, sortedIsovalues))
+  , isovalues(sortedIsovalues)
   , points(sortedIsovalues.size(), 0)
   , dropped(sortedIsovalues.size(), 0)
   , areTriangles(options.triangles)
@@ -409,13 +493,15 @@ void Report::share(ProcessGroup& processes)
 std::vector<Message> describeReport(const Report& report, OptionNaming naming)
 {
   std::vector<Message> messages = describeIsovalues(report, naming);
-  messages.push_back(
-    describeSkipped(report, "There is no isosurface. Choose another array, or mend the positions.",
-      "The surface there is that of the samples around."));
+  const char* const remedy = report.subject == Report::Isosurface
+                               ? ". Choose another array, or mend the positions."
+                               : ". Mend the positions.";
+  messages.push_back(describeSkipped(report, "There is no " + nameOf(report.subject) + remedy,
+    "The surface there is that of the samples around."));
   messages.push_back(describeUnprojected(report, naming));
   messages.push_back(describeCornersApart(report));
   messages.push_back(describeBeyondFloat(report));
-  messages.push_back(report.isPieceOfProcess ? describePieces() : Message());
+  messages.push_back(describePieces(report));
   const std::vector<Message> replaced = describeReplacedArrays(report);
   messages.insert(messages.end(), replaced.begin(), replaced.end());
   messages.erase(std::remove_if(messages.begin(), messages.end(),

@@ -37,7 +37,9 @@ struct Message
     NoCrossing = 7,
     PointsWithoutFit = 8,
     SplatsApart = 9,
-    BeyondFloat = 10
+    BeyondFloat = 10,
+    NoIsovalues = 11,
+    OnlyAtSamples = 12
   };
   std::string cause; // constant in repeated extractions while it lasts
   std::string text;  // the cause, then the remedy, as lists may truncate it
@@ -56,12 +58,11 @@ struct CloudCounts
 /// Counts of the samples of clouds.
 struct SampleCounts
 {
-  std::uint64_t samples = 0;                  // all, including skipped ones
-  std::uint64_t notFinite = 0;                // samples with such a coordinate or value
-  std::uint64_t excluded = 0;                 // samples left out by the caller, such as ghosts
-  std::uint64_t withoutArray = 0;             // samples of data sets without the chosen array
-  std::string array;                          // its name, may be empty
-  std::string excludedAs = "ghost or hidden"; // the caller's word for excluded samples
+  std::uint64_t samples = 0;      // all, including skipped ones
+  std::uint64_t notFinite = 0;    // samples with such a coordinate or value
+  std::uint64_t excluded = 0;     // samples left out by the caller, such as ghosts
+  std::uint64_t withoutArray = 0; // samples of data sets without the chosen array
+  std::string array;              // its name, may be empty
 
   /// Skipped for any reason.
   std::uint64_t skippedCount() const
@@ -82,12 +83,16 @@ struct SampleCounts
 Message describeSkipped(
   const SampleCounts& counts, const std::string& ofNone, const std::string& ofSome);
 
-/// The message that an output is a piece of one of several processes without a controller.
-Message describePieces();
-
 /// Counts of an extraction of isovalues from clouds, and properties needed to assess them.
 struct Report : SampleCounts
 {
+  enum Subjects
+  {
+    Isosurface,
+    Slice, // of the values of a cut function, with keepHullSlivers
+    Body   // of all samples, with capping at an infinitely low isovalue
+  };
+  Subjects subject = Isosurface;
   std::vector<double> isovalues;        // ascending
   std::vector<std::uint64_t> points;    // by isovalue
   std::vector<std::uint64_t> dropped;   // edges or tetrahedra in gaps, by isovalue

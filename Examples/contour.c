@@ -3,7 +3,8 @@
  *
  *   contour SAMPLES ISOVALUE SURFACE.ply
  *
- * SAMPLES holds four numbers of type float for each sample, its coordinates and its value. */
+ * SAMPLES holds four numbers of type float for each sample, its coordinates and its value. Both files
+ * are in the byte order of this machine. */
 #include "isopoint.h"
 
 #include <stdio.h>
@@ -50,15 +51,17 @@ static int write_ply(const char* path, const isopoint_array* points, const isopo
   const int64_t* corner = triangles->data;
   int64_t i;
   int has_failed;
+  const int one = 1;
+  const char* order = *(const char*)&one ? "little" : "big"; /* endian */
   FILE* file = fopen(path, "wb");
   if (!file)
     return 0;
   fprintf(file,
-    "ply\nformat binary_little_endian 1.0\nelement vertex %lld\n"
+    "ply\nformat binary_%s_endian 1.0\nelement vertex %lld\n"
     "property float x\nproperty float y\nproperty float z\n"
     "property float nx\nproperty float ny\nproperty float nz\n"
     "element face %lld\nproperty list uchar int vertex_indices\nend_header\n",
-    (long long)points->count, (long long)triangles->count);
+    order, (long long)points->count, (long long)triangles->count);
   for (i = 0; i < points->count; ++i)
   {
     fwrite(point + 3 * i, sizeof(float), 3, file);

@@ -161,4 +161,20 @@ private:
   std::uint64_t ComponentStride;
 };
 
+/// @param size of the memory for results, in bytes
+/// @throws UsageError unless it holds `count` tuples of `components` numbers of `bytes` each
+inline void requireMemory(const void* memory, std::uint64_t size, const char* results,
+  std::size_t count, std::uint64_t components, std::size_t bytes)
+{
+  const std::uint64_t given = memory ? size : 0;
+  if (given / bytes / components < count)
+  {
+    throw UsageError(std::string("The memory for ") + results + " has " + std::to_string(given) +
+                       " bytes. Pass memory for " + std::to_string(count) + " tuples of " +
+                       std::to_string(components) + " numbers of " + std::to_string(bytes) +
+                       (bytes > 1 ? " bytes." : " byte."),
+      UsageError::Array);
+  }
+}
+
 } // namespace isopoint

@@ -4,6 +4,7 @@
 #include "Core/Base/Threads.h"
 #include "Core/Contour.h"
 #include "Core/Failure.h"
+#include "Library/Arrays.h"
 #include "Library/Probe.h"
 #include "Library/RunningCall.h"
 #include "Library/SampleReader.h"
@@ -31,12 +32,13 @@ namespace
 {
 
 /// The message of this thread's last failed call.
-thread_local std::string lastError;
+thread_local const char* lastError = "";
+thread_local std::string lastText; // not touched where memory is lacking: its first use takes some
 
-/// Allocates nothing but, on a thread's first failure, its message.
 isopoint_status fail(isopoint_status status, std::string& message)
 {
-  lastError.swap(message);
+  lastText.swap(message);
+  lastError = lastText.c_str();
   return status;
 }
 
@@ -64,12 +66,13 @@ isopoint_status failWithException()
   switch (failure.kind)
   {
     case isopoint::Failure::Aborted:
-      failure.text = "Canceled."; // short: not allocated
+      failure.text = "Canceled.";
       return fail(ISOPOINT_CANCELED, failure.text);
     case isopoint::Failure::InvalidUsage:
       return fail(statusOf(failure.usage), failure.text);
     case isopoint::Failure::OutOfMemory:
-      return fail(ISOPOINT_OUT_OF_MEMORY, failure.text);
+      lastError = isopoint::outOfMemoryText;
+      return ISOPOINT_OUT_OF_MEMORY;
     default:
       return fail(ISOPOINT_INTERNAL_ERROR, failure.text);
   }
@@ -263,7 +266,7 @@ isopoint::Execution executionOnThreads(std::int32_t threads)
   return execution;
 }
 
-/// What a program passes to isopoint_set_callbacks().
+/// What a program passes to isopoint_set_extractor_callbacks() and its like.
 struct Callbacks
 {
   isopoint_progress_callback Progress = nullptr;
@@ -294,9 +297,8 @@ std::vector<isopoint::Message> describe(const isopoint::Report& report)
   if (messages.empty() && report.samples == report.skippedCount())
   {
     messages.push_back({ "no samples",
-      report.samples == 0 ? "No isosurface: there are no samples. Pass some."
-                          : "No isosurface: no sample takes part. Pass samples"
-                            " that are not excluded.",
+      report.samples == 0 ? "There are no samples. Pass some."
+                          : "All samples are excluded. Pass some that are not.",
       isopoint::Message::Warning, isopoint::Message::NoSamples });
   }
   return messages;
@@ -392,7 +394,7 @@ int32_t isopoint_version_number(void)
 
 const char* isopoint_get_error(void)
 {
-  return lastError.c_str();
+  return lastError;
 }
 
 isopoint_extractor* isopoint_create_extractor(void)
@@ -407,7 +409,7 @@ void isopoint_destroy_extractor(isopoint_extractor* extractor)
   destroy(extractor);
 }
 
-isopoint_status isopoint_set_threads(isopoint_extractor* extractor, int32_t threads)
+isopoint_status isopoint_set_extractor_threads(isopoint_extractor* extractor, int32_t threads)
 {
   return runOn(extractor, "extractor",
     [&]()
@@ -417,13 +419,13 @@ isopoint_status isopoint_set_threads(isopoint_extractor* extractor, int32_t thre
     });
 }
 
-isopoint_status isopoint_set_callbacks(isopoint_extractor* extractor,
+isopoint_status isopoint_set_extractor_callbacks(isopoint_extractor* extractor,
   isopoint_progress_callback progress, isopoint_cancel_callback cancels, void* user)
 {
   return runOn(extractor, "extractor", [&]() { extractor->Calls = { progress, cancels, user }; });
 }
 
-isopoint_status isopoint_set_name(isopoint_extractor* extractor, const char* name)
+isopoint_status isopoint_set_value_name(isopoint_extractor* extractor, const char* name)
 {
   return runOn(extractor, "extractor", [&]() { extractor->Name = name ? name : ""; });
 }
@@ -485,9 +487,24 @@ void isopoint_initialize_probe_options(isopoint_probe_options* options, size_t s
   isopoint::giveOptions(all, options, size);
 }
 
+namespace
+{
+
+/// @param flags null, or memory for one per place
+/// @throws UsageError
+void requireFlags(const std::uint8_t* flags, std::size_t size, std::size_t places)
+{
+  if (flags)
+  {
+    isopoint::requireMemory(flags, size, "flags", places, 1, 1);
+  }
+}
+
+} // namespace
+
 isopoint_status isopoint_probe(isopoint_extractor* extractor, const isopoint_array* places,
   const isopoint_array* arrays, int64_t array_count, const isopoint_probe_options* options,
-  const isopoint_probe_result* results, uint8_t* flags)
+  const isopoint_probe_result* results, uint8_t* flags, size_t flags_size)
 {
   return runOnSamples(extractor,
     [&]()
@@ -496,6 +513,7 @@ isopoint_status isopoint_probe(isopoint_extractor* extractor, const isopoint_arr
       const isopoint::ProbeOptions chosen = isopoint::probeOptionsFrom(options);
       const auto probed = isopoint::probedArrays(
         arrays, array_count, results, extractor->Counts.items, all.size(), chosen);
+      requireFlags(flags, flags_size, all.size());
       extractor->Extractor.probe(extractor->makeExecution(), all, chosen, probed, flags);
     });
 }
@@ -508,10 +526,9 @@ isopoint_status isopoint_find_neighborhoods(isopoint_extractor* extractor,
     [&]()
     {
       require(neighborhoods, "pointer to neighborhoods");
-      const isopoint::Execution execution = extractor->makeExecution();
-      *neighborhoods = new isopoint_neighborhoods{ execution,
-        extractor->Extractor.findNeighborhoods(
-          execution, isopoint::placesFrom(places), isopoint::probeOptionsFrom(options)),
+      *neighborhoods = new isopoint_neighborhoods{ executionOnThreads(extractor->Threads),
+        extractor->Extractor.findNeighborhoods(extractor->makeExecution(),
+          isopoint::placesFrom(places), isopoint::probeOptionsFrom(options)),
         static_cast<std::size_t>(extractor->Counts.items) };
     });
 }
@@ -534,12 +551,13 @@ isopoint_status isopoint_set_neighborhoods_callbacks(isopoint_neighborhoods* nei
 
 isopoint_status isopoint_probe_neighborhoods(const isopoint_neighborhoods* neighborhoods,
   const isopoint_array* arrays, int64_t array_count, const isopoint_probe_result* results,
-  uint8_t* flags)
+  uint8_t* flags, size_t flags_size)
 {
   return runOn(neighborhoods, "neighborhoods",
     [&]()
     {
       const isopoint::Neighborhoods& found = neighborhoods->found;
+      requireFlags(flags, flags_size, found.places.size());
       isopoint::probeNeighborhoods(neighborhoods->execution, found,
         isopoint::probedArrays(arrays, array_count, results, neighborhoods->sampleCount,
           found.places.size(), found.options));
@@ -592,7 +610,6 @@ isopoint_status isopoint_extract(isopoint_extractor* extractor, const double* is
       isopoint::Report report(
         chosen, isopoint::sortedIsovalues(std::vector<double>(isovalues, isovalues + count)));
       report.array = extractor->Name;
-      report.excludedAs = "excluded";
       report.countSamples(extractor->Extractor, extractor->Counts);
       const isopoint::Execution execution = extractor->makeExecution();
       std::vector<isopoint::ExtractedIsosurface> parts = isopoint::extractIsovalues(
@@ -601,6 +618,7 @@ isopoint_status isopoint_extract(isopoint_extractor* extractor, const double* is
         extractor->Types.areFloatPositions, report,
         static_cast<std::size_t>(extractor->Counts.items));
       made->messages = describe(report);
+      made->execution = executionOnThreads(extractor->Threads);
       execution.progress(1.0);
       *surface = made.release();
     });
@@ -714,9 +732,9 @@ isopoint_status isopoint_get_array(
 }
 
 isopoint_status isopoint_interpolate(
-  const isopoint_surface* surface, const isopoint_array* of_samples, void* result)
+  const isopoint_surface* surface, const isopoint_array* of_samples, void* result, size_t size)
 {
-  return runOn(surface, "surface", [&]() { surface->interpolate(of_samples, result); });
+  return runOn(surface, "surface", [&]() { surface->interpolate(of_samples, result, size); });
 }
 
 isopoint_status isopoint_create_surface(const isopoint_array* points, const isopoint_array* normals,
@@ -733,7 +751,8 @@ isopoint_status isopoint_make_splat_mesh(isopoint_surface* surface, double scale
 }
 
 isopoint_status isopoint_average_at_splat_vertices(
-  const isopoint_surface* surface, const isopoint_array* of_points, void* result)
+  const isopoint_surface* surface, const isopoint_array* of_points, void* result, size_t size)
 {
-  return runOn(surface, "surface", [&]() { surface->averageAtSplatVertices(of_points, result); });
+  return runOn(
+    surface, "surface", [&]() { surface->averageAtSplatVertices(of_points, result, size); });
 }

@@ -60,16 +60,17 @@ ProbeOptions probeOptionsFrom(const isopoint_probe_options* given)
     constexpr std::size_t sizeOf1_0 = 24;
     takeOptions(*given, sizeOf1_0, "isopoint_initialize_probe_options()", all);
   }
-  if (all.method < ISOPOINT_METHOD_BLEND || all.method > ISOPOINT_METHOD_NEAREST)
+  if (all.method < ISOPOINT_PROBE_BLEND || all.method > ISOPOINT_PROBE_NEAREST)
   {
     throw UsageError(
-      "The method is " + std::to_string(all.method) + ". Use an ISOPOINT_METHOD, 0 to 4.",
+      "The method is " + std::to_string(all.method) + ". Use an ISOPOINT_PROBE, 0 to 4.",
       UsageError::Option);
   }
-  if (all.outside < ISOPOINT_OUTSIDE_NUMBER || all.outside > ISOPOINT_OUTSIDE_EXTRAPOLATE)
+  if (all.outside < ISOPOINT_PROBE_OUTSIDE_NUMBER ||
+      all.outside > ISOPOINT_PROBE_OUTSIDE_EXTRAPOLATE)
   {
-    throw UsageError(
-      "The option outside is " + std::to_string(all.outside) + ". Use an ISOPOINT_OUTSIDE, 0 to 2.",
+    throw UsageError("The option outside is " + std::to_string(all.outside) +
+                       ". Use an ISOPOINT_PROBE_OUTSIDE, 0 to 2.",
       UsageError::Option);
   }
   return { static_cast<PlaceMethod>(all.method), static_cast<OutsideStrategy>(all.outside),
@@ -101,10 +102,10 @@ ProbedArray probedArray(const isopoint_array& array, const isopoint_probe_result
 {
   const ArrayReader reader(&array, "values");
   reader.require(sampleCount, reader.components());
-  if (!result.values && placeCount > 0)
-  {
-    throw UsageError("The memory for values is null. Pass memory for one tuple per place.");
-  }
+  const auto components = static_cast<std::uint64_t>(reader.components());
+  const bool keepsType = options.method == PlaceMethod::Nearest;
+  requireMemory(result.values, result.values_size, "values", placeCount, components,
+    keepsType ? sizeOfType(reader.type()) : sizeof(double));
   ProbedArray probed;
   probed.components = reader.components();
   probed.valueError = isFloatingPoint(reader.type()) ? 0.0 : roundingError;
@@ -120,7 +121,7 @@ ProbedArray probedArray(const isopoint_array& array, const isopoint_probe_result
           numbers[i] = static_cast<double>(reader.at<T>(ids[i], component));
         }
       };
-      if (options.method == PlaceMethod::Nearest)
+      if (keepsType)
       {
         probed.take = [reader, values = static_cast<T*>(result.values),
                         nothing = numberAs<T>(options.outsideNumber)](
@@ -134,7 +135,7 @@ ProbedArray probedArray(const isopoint_array& array, const isopoint_probe_result
         };
       }
     });
-  if (options.method == PlaceMethod::Nearest)
+  if (keepsType)
   {
     if (result.gradients)
     {
@@ -142,6 +143,11 @@ ProbedArray probedArray(const isopoint_array& array, const isopoint_probe_result
         UsageError::Option);
     }
     return probed;
+  }
+  if (result.gradients)
+  {
+    requireMemory(result.gradients, result.gradients_size, "gradients", placeCount, 3 * components,
+      sizeof(double));
   }
   probed.values = static_cast<double*>(result.values);
   probed.gradients = result.gradients;

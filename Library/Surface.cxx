@@ -92,16 +92,6 @@ isopoint_surface::Coordinates coordinatesOf(const isopoint_array* points)
   return numbersOf<double>(points, "the points", reader.count(), 3);
 }
 
-/// @throws UsageError if the result is null, unless there are no tuples
-void requireMemory(const void* result, std::size_t tuples)
-{
-  if (!result && tuples > 0)
-  {
-    throw isopoint::UsageError(
-      "The result is null. Pass memory for " + std::to_string(tuples) + " tuples.");
-  }
-}
-
 } // namespace
 
 isopoint_surface::isopoint_surface(const isopoint::Execution& making,
@@ -222,12 +212,19 @@ isopoint_array isopoint_surface::array(std::int32_t id) const
   return arrays[static_cast<std::size_t>(id)];
 }
 
-void isopoint_surface::interpolate(const isopoint_array* ofSamples, void* result) const
+void isopoint_surface::interpolate(
+  const isopoint_array* ofSamples, void* result, std::size_t size) const
 {
+  if (!this->isExtracted)
+  {
+    throw isopoint::UsageError("A surface made by isopoint_create_surface() has no samples. Extract"
+                               " one by isopoint_extract().");
+  }
   const isopoint::ArrayReader reader(ofSamples, "the samples");
   reader.require(this->SampleCount, reader.components());
-  requireMemory(result, this->Isovalues.size());
   const auto components = static_cast<std::size_t>(reader.components());
+  isopoint::requireMemory(result, size, "the result", this->Isovalues.size(), components,
+    isopoint::sizeOfType(reader.type()));
   isopoint::withType(reader.type(),
     [&](auto type)
     {
@@ -336,7 +333,8 @@ isopoint_surface::SplatArrays::SplatArrays(
     });
 }
 
-void isopoint_surface::averageAtSplatVertices(const isopoint_array* ofPoints, void* result) const
+void isopoint_surface::averageAtSplatVertices(
+  const isopoint_array* ofPoints, void* result, std::size_t size) const
 {
   if (!this->HasSplatMesh)
   {
@@ -345,13 +343,15 @@ void isopoint_surface::averageAtSplatVertices(const isopoint_array* ofPoints, vo
   }
   const isopoint::ArrayReader reader(ofPoints, "the points");
   reader.require(this->pointCount(), reader.components());
-  requireMemory(result, this->Splats.mesh.vertices.size());
   reader.requireFloatingPoint();
+  const auto components = static_cast<std::size_t>(reader.components());
+  isopoint::requireMemory(result, size, "the result", this->Splats.mesh.vertices.size(), components,
+    isopoint::sizeOfType(reader.type()));
   const auto average = [&](auto type)
   {
     using T = decltype(type);
     isopoint::meansAtVertices(
-      this->execution, this->Splats.mesh, static_cast<std::size_t>(reader.components()),
+      this->execution, this->Splats.mesh, components,
       [&](std::size_t point, std::size_t i)
       { return static_cast<double>(reader.at<T>(point, static_cast<int>(i))); },
       static_cast<T*>(result));

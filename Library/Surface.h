@@ -34,13 +34,13 @@ struct isopoint_surface
   isopoint_array array(std::int32_t id) const;
 
   /// See isopoint_interpolate(). @throws isopoint::UsageError, isopoint::Aborted, std::bad_alloc
-  void interpolate(const isopoint_array* ofSamples, void* result) const;
+  void interpolate(const isopoint_array* ofSamples, void* result, std::size_t size) const;
 
   /// See isopoint_make_splat_mesh(). @throws as interpolate()
   void makeSplatMesh(double scale);
 
   /// See isopoint_average_at_splat_vertices(). @throws as interpolate()
-  void averageAtSplatVertices(const isopoint_array* ofPoints, void* result) const;
+  void averageAtSplatVertices(const isopoint_array* ofPoints, void* result, std::size_t size) const;
 
   isopoint::Execution execution; // of all calls on this surface
   isopoint::Options options;     // effective ones

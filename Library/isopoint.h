@@ -27,10 +27,12 @@
  * threads uses one. In a process forked during a call, later calls fail that could wait for locks.
  *
  * Errors: functions that can fail return an isopoint_status, and isopoint_get_error() returns the
- * cause and the remedy. Pointers to objects are written only on success; memory for numbers may be
- * partly written after a failure. Memory for numbers is aligned as their type and overlaps no other
- * argument. Lack of memory is an error like others, but the first failure of a thread takes a little
- * memory for its message.
+ * cause and the remedy. Pointers to objects are written only on success. Lack of memory is an error
+ * like others.
+ *
+ * Memory for results: the caller passes it, with its size in bytes, which may exceed what is needed.
+ * It is aligned as the numbers are, and overlaps no other argument. Tuples are contiguous. After a
+ * failure it may be partly written.
  *
  * Versions: a program runs with each library 1.x that has the functions it calls, whichever version
  * 1.x of this header it was compiled with. Names, numbers, parameters and structures stay, but later
@@ -81,11 +83,11 @@ typedef enum isopoint_status
   ISOPOINT_OUT_OF_MEMORY = 2,
   ISOPOINT_CANCELED = 3,       /* by the callback */
   ISOPOINT_INTERNAL_ERROR = 4, /* a defect of the library */
-  ISOPOINT_INVALID_ARRAY = 5,  /* the type, size or memory of an isopoint_array */
+  ISOPOINT_INVALID_ARRAY = 5,  /* the type, size or memory of an array or a result */
   ISOPOINT_INVALID_OPTION = 6, /* unknown, out of range, or not together with another one */
   ISOPOINT_INVALID_ORDER = 7,  /* another call has to come first */
   ISOPOINT_FORKED = 8,         /* this process was forked during a call */
-  ISOPOINT_LAST_STATUS = 0x7fffffff /* of no call: makes room for later ones */
+  ISOPOINT_LAST_STATUS = 0x7fffffff /* of no call: gives the type its size */
 } isopoint_status;
 
 /* The types of numbers in arrays. */
@@ -201,26 +203,26 @@ ISOPOINT_API const char* isopoint_get_error(void);
 /* Sets the maximum number of threads. 0, the default, and excessive numbers stand for all available
  * cores: those of the process's affinity mask, within its container's quota, shared with processes
  * that an MPI launcher started on this machine. Without oneTBB, or if it fails, one thread runs. */
-ISOPOINT_API isopoint_status isopoint_set_threads(isopoint_extractor* extractor, int32_t threads);
+ISOPOINT_API isopoint_status isopoint_set_extractor_threads(
+  isopoint_extractor* extractor, int32_t threads);
 
-/* Callbacks: see isopoint_set_callbacks(). They have to return, not by exceptions or longjmp(). */
+/* Receives the share of a call that is done, 0 to 1, ascending. */
 typedef void (*isopoint_progress_callback)(void* user, double fraction);
+
+/* Asked every few tens of milliseconds whether to cancel a call. Nonzero ends it: it returns
+ * ISOPOINT_CANCELED, and its object stays usable. */
 typedef int (*isopoint_cancel_callback)(void* user);
 
-/* Sets callbacks, or removes them with null, the default. They run on the thread of the call and
- * must not use its extractor, surface or neighborhoods. They apply to calls that load, extract or
- * probe. Surfaces and neighborhoods made afterwards keep them, and call them on the threads of their
- * own calls, possibly at the same time. So `user` must outlive these, unless
- * isopoint_set_surface_callbacks() or isopoint_set_neighborhoods_callbacks() replaces them.
- * @param progress(user, fraction) the share of the call that is done, 0 to 1, ascending
- * @param cancels(user) called every few tens of milliseconds; nonzero ends the call, which returns
- * ISOPOINT_CANCELED and leaves the extractor usable */
-ISOPOINT_API isopoint_status isopoint_set_callbacks(isopoint_extractor* extractor,
+/* Sets the callbacks of later calls that load, extract or probe, or removes them with null, the
+ * default. They run on the thread of the call, must not use its object, and have to return, not by
+ * exceptions or longjmp(). */
+ISOPOINT_API isopoint_status isopoint_set_extractor_callbacks(isopoint_extractor* extractor,
   isopoint_progress_callback progress, isopoint_cancel_callback cancels, void* user);
 
 /* Sets the name of the values, such as "temperature", for messages and their causes. It is copied.
- * @param name null or "", the default: messages say "the array" */
-ISOPOINT_API isopoint_status isopoint_set_name(isopoint_extractor* extractor, const char* name);
+ * @param name in UTF-8; null or "", the default: messages say "the array" */
+ISOPOINT_API isopoint_status isopoint_set_value_name(
+  isopoint_extractor* extractor, const char* name);
 
 /* Loads samples, which replace all former ones. Arrays are read only during the call. If positions,
  * types and skipped samples are the same as before, the tree is kept and only values are replaced:
@@ -232,8 +234,7 @@ ISOPOINT_API isopoint_status isopoint_set_name(isopoint_extractor* extractor, co
  * an array cannot be used, the extractor keeps its former samples; after other errors it has none.
  * O(n)
  * @param positions of type float or double, three components
- * @param values of any type, one component, as many as positions; null if only isopoint_probe() is
- * called
+ * @param values of any type, one component, as many as positions; null if there is nothing to extract
  * @param excluded null, or one ISOPOINT_UINT8 per sample; samples that are not 0 are skipped */
 ISOPOINT_API isopoint_status isopoint_set_samples(isopoint_extractor* extractor,
   const isopoint_array* positions, const isopoint_array* values, const isopoint_array* excluded);
@@ -248,29 +249,29 @@ ISOPOINT_API void isopoint_get_value_range(const isopoint_extractor* extractor, 
 /* -------------------------------------------------------------------------------- */
 /* Values at places */
 
-typedef enum isopoint_method
+typedef enum isopoint_probe_method
 {
-  ISOPOINT_METHOD_BLEND = 0,     /* the mean of four fits, weighted by their estimated errors */
-  ISOPOINT_METHOD_CUBIC = 1,     /* a polynomial of degree three: linear in the values */
-  ISOPOINT_METHOD_QUADRATIC = 2, /* of degree two: linear in the values */
-  ISOPOINT_METHOD_AFFINE = 3,    /* of degree one, by least squares: linear in the values */
-  ISOPOINT_METHOD_NEAREST = 4    /* the nearest sample */
-} isopoint_method;
+  ISOPOINT_PROBE_BLEND = 0,     /* the mean of four fits, weighted by their estimated errors */
+  ISOPOINT_PROBE_CUBIC = 1,     /* a polynomial of degree three: linear in the values */
+  ISOPOINT_PROBE_QUADRATIC = 2, /* of degree two: linear in the values */
+  ISOPOINT_PROBE_AFFINE = 3,    /* of degree one, by least squares: linear in the values */
+  ISOPOINT_PROBE_NEAREST = 4    /* the nearest sample */
+} isopoint_probe_method;
 
 /* What places outside the samples get. Places without finite coordinates always get the number. */
-typedef enum isopoint_outside
+typedef enum isopoint_probe_outside
 {
-  ISOPOINT_OUTSIDE_NUMBER = 0,     /* a number */
-  ISOPOINT_OUTSIDE_NEAREST = 1,    /* the value of the nearest sample */
-  ISOPOINT_OUTSIDE_EXTRAPOLATE = 2 /* what the method gives: no other place counts as outside */
-} isopoint_outside;
+  ISOPOINT_PROBE_OUTSIDE_NUMBER = 0,     /* a number */
+  ISOPOINT_PROBE_OUTSIDE_NEAREST = 1,    /* the value of the nearest sample */
+  ISOPOINT_PROBE_OUTSIDE_EXTRAPOLATE = 2 /* what the method gives: no other place counts as outside */
+} isopoint_probe_outside;
 
 /* How to probe places. isopoint_initialize_probe_options() sets `size` and all defaults. */
 typedef struct isopoint_probe_options
 {
   uint64_t size;         /* of this struct, in bytes */
-  int32_t method;        /* an isopoint_method. Default: BLEND */
-  int32_t outside;       /* an isopoint_outside. Default: NUMBER */
+  int32_t method;        /* an isopoint_probe_method. Default: BLEND */
+  int32_t outside;       /* an isopoint_probe_outside. Default: NUMBER */
   double outside_number; /* for NUMBER. Default: NaN */
 } isopoint_probe_options;
 
@@ -280,10 +281,12 @@ ISOPOINT_API void isopoint_initialize_probe_options(isopoint_probe_options* opti
 /* Memory for the results of one array. */
 typedef struct isopoint_probe_result
 {
-  /* One tuple per place, contiguous, with the components of the array: double, or the type of the
-   * array with NEAREST. */
+  /* One tuple per place, with the components of the array: double, or the type of the array with
+   * NEAREST. */
   void* values;
+  uint64_t values_size; /* in bytes */
   double* gradients; /* null, or three numbers for each component of each place; not with NEAREST */
+  uint64_t gradients_size; /* in bytes */
 } isopoint_probe_result;
 
 typedef enum isopoint_place_flag
@@ -322,10 +325,12 @@ typedef enum isopoint_place_flag
  * @param arrays `array_count` arrays, each of as many tuples as there were samples
  * @param options null for the defaults
  * @param results `array_count`
- * @param flags null, or receives for each place the sum of its ISOPOINT_PLACE_... */
+ * @param flags null, or memory for the sum of the ISOPOINT_PLACE_... of each place
+ * @param flags_size in bytes */
 ISOPOINT_API isopoint_status isopoint_probe(isopoint_extractor* extractor,
   const isopoint_array* places, const isopoint_array* arrays, int64_t array_count,
-  const isopoint_probe_options* options, const isopoint_probe_result* results, uint8_t* flags);
+  const isopoint_probe_options* options, const isopoint_probe_result* results, uint8_t* flags,
+  size_t flags_size);
 
 /* The samples around places, kept so that later arrays, such as those of other time steps, cost only
  * the products with weights; with BLEND, the fits. Takes 0.3 kB a place with BLEND, up to 1.7 kB with
@@ -339,8 +344,9 @@ ISOPOINT_API isopoint_status isopoint_find_neighborhoods(isopoint_extractor* ext
   const isopoint_array* places, const isopoint_probe_options* options,
   isopoint_neighborhoods** neighborhoods);
 
-/* Sets the maximum number of threads of calls on neighborhoods, or their callbacks: at first those
- * that the extractor had when it found them. See isopoint_set_threads(), isopoint_set_callbacks(). */
+/* Set the maximum number of threads and the callbacks of calls on neighborhoods, as
+ * isopoint_set_extractor_threads() and isopoint_set_extractor_callbacks() do. At first they have the
+ * extractor's number of threads and no callbacks. */
 ISOPOINT_API isopoint_status isopoint_set_neighborhoods_threads(
   isopoint_neighborhoods* neighborhoods, int32_t threads);
 ISOPOINT_API isopoint_status isopoint_set_neighborhoods_callbacks(
@@ -350,7 +356,7 @@ ISOPOINT_API isopoint_status isopoint_set_neighborhoods_callbacks(
 /* isopoint_probe() for the places of neighborhoods, with the same results. */
 ISOPOINT_API isopoint_status isopoint_probe_neighborhoods(
   const isopoint_neighborhoods* neighborhoods, const isopoint_array* arrays, int64_t array_count,
-  const isopoint_probe_result* results, uint8_t* flags);
+  const isopoint_probe_result* results, uint8_t* flags, size_t flags_size);
 
 /* Weights of samples: a sparse matrix with a row for each place, in compressed rows. Its product
  * with an array is the value at each place. Coincident samples share a weight, except with NEAREST. */
@@ -360,7 +366,7 @@ typedef struct isopoint_weights
   const int64_t* row_begins;      /* the first entry of each row, and the end: row_count + 1 */
   const int64_t* samples;         /* the sample of each entry */
   const double* values;           /* the weight of each entry in the value */
-  const double* gradients;        /* three each: in the gradient */
+  const double* gradients;        /* its three weights in the gradient */
 } isopoint_weights;
 
 /* The weights of neighborhoods, computed at the first call, in one thread and without callbacks; not
@@ -374,24 +380,25 @@ ISOPOINT_API isopoint_status isopoint_get_weights(
 ISOPOINT_API void isopoint_destroy_neighborhoods(isopoint_neighborhoods* neighborhoods);
 
 /* -------------------------------------------------------------------------------- */
-/* Surfaces. Their calls use the threads and callbacks that the extractor had when it made them,
- * unless isopoint_set_surface_threads() or isopoint_set_surface_callbacks() replace these. */
+/* Surfaces */
 
 /* Extracts isosurfaces: for each distinct isovalue, ascending, the points where edges between
  * neighboring samples cross it. The first extraction takes O(n) to build the levels of the tree
  * that are larger than the surface; further ones only process samples near the surface.
  * @param isovalues `count` numbers, at most 2^24, possibly infinite but not NaN
  * @param options null for the defaults
- * @param surface receives a surface, to be freed by isopoint_destroy_surface(). If it has no points
- * although there are isovalues, isopoint_get_message() says why. After ISOPOINT_INTERNAL_ERROR the
- * extractor has no samples
+ * @param surface receives a surface, to be freed by isopoint_destroy_surface(). If it has no points,
+ * isopoint_get_message() says why. After ISOPOINT_INTERNAL_ERROR the extractor has no samples
  *
- * To slice samples along a plane or another implicit function, pass the function's values at the
- * samples, as double, to isopoint_set_samples(), and extract triangles without projection and
+ * Slices: to slice samples along a plane or another implicit function, pass the function's values at
+ * the samples, as double, to isopoint_set_samples(), and extract triangles without projection and
  * normals, but with keep_hull_slivers. The function of a plane is dot(position, normal): to move the
  * plane along its normal, change the isovalue. Then isopoint_probe() with EXTRAPOLATE gives all
  * arrays at the points by fits, also at rims, where slivers on the convex hull have edges that are
- * far too long for isopoint_interpolate(). */
+ * far too long for isopoint_interpolate().
+ *
+ * Bodies: for the closed surface of all samples pass any values, such as zeros, and extract triangles
+ * without projection and normals, but with capping, at the isovalue -INFINITY. */
 ISOPOINT_API isopoint_status isopoint_extract(isopoint_extractor* extractor,
   const double* isovalues, int64_t count, const isopoint_options* options,
   isopoint_surface** surface);
@@ -399,29 +406,32 @@ ISOPOINT_API isopoint_status isopoint_extract(isopoint_extractor* extractor,
 /* Frees a surface and its arrays. Null is ignored. */
 ISOPOINT_API void isopoint_destroy_surface(isopoint_surface* surface);
 
-/* Sets the maximum number of threads of calls on a surface, as isopoint_set_threads() does. */
+/* Set the maximum number of threads and the callbacks of isopoint_interpolate(),
+ * isopoint_make_splat_mesh() and isopoint_average_at_splat_vertices(), as
+ * isopoint_set_extractor_threads() and isopoint_set_extractor_callbacks() do. At first a surface has
+ * the number of threads of its extractor, or 0, and no callbacks. */
 ISOPOINT_API isopoint_status isopoint_set_surface_threads(
   isopoint_surface* surface, int32_t threads);
-
-/* Replaces the callbacks that the surface took over from its extractor; null removes them. They apply
- * to isopoint_interpolate(), isopoint_make_splat_mesh() and isopoint_average_at_splat_vertices(). See
- * isopoint_set_callbacks(). */
 ISOPOINT_API isopoint_status isopoint_set_surface_callbacks(isopoint_surface* surface,
   isopoint_progress_callback progress, isopoint_cancel_callback cancels, void* user);
 
-/* What a message is about. */
+/* What a message is about. A surface with keep_hull_slivers and without capping is a slice; one with
+ * capping at the isovalue -INFINITY alone is a body. Messages name each isovalue without a surface;
+ * slices have one only if all are empty. */
 typedef enum isopoint_message_code
 {
   ISOPOINT_MESSAGE_SKIPPED_SAMPLES = 1,    /* some are not finite; not a warning */
   ISOPOINT_MESSAGE_NO_SAMPLES = 2,         /* all are skipped */
   ISOPOINT_MESSAGE_CONSTANT_VALUES = 3,    /* no surface: all values are the same */
-  ISOPOINT_MESSAGE_ISOVALUE_OUTSIDE = 4,   /* no surface: the isovalue is outside the range of the values */
+  ISOPOINT_MESSAGE_ISOVALUE_OUTSIDE = 4,   /* no surface: no values are below, or none are above */
   ISOPOINT_MESSAGE_TOO_FEW_SAMPLES = 5,    /* no surface: there are fewer than four */
   ISOPOINT_MESSAGE_ALL_IN_GAPS = 6,        /* no surface: all of it is in gaps between samples */
   ISOPOINT_MESSAGE_NO_CROSSING = 7,        /* no surface for another reason, such as samples in one plane */
   ISOPOINT_MESSAGE_POINTS_WITHOUT_FIT = 8, /* no fit moved most points */
   ISOPOINT_MESSAGE_SPLATS_APART = 9,       /* many splats do not meet */
-  ISOPOINT_MESSAGE_BEYOND_FLOAT = 10       /* float cannot hold positions or splats */
+  ISOPOINT_MESSAGE_BEYOND_FLOAT = 10,      /* float cannot hold positions or splats */
+  ISOPOINT_MESSAGE_NO_ISOVALUES = 11,      /* no surface: there are no isovalues */
+  ISOPOINT_MESSAGE_ONLY_AT_SAMPLES = 12    /* a slice is only where samples are on it; not a warning */
 } isopoint_message_code;
 
 /* A message for the user about a result, such as skipped samples or an isovalue without a surface:
@@ -491,18 +501,17 @@ typedef enum isopoint_array_id
 ISOPOINT_API isopoint_status isopoint_get_array(
   const isopoint_surface* surface, int32_t array_id, isopoint_array* array);
 
-/* Interpolates an array of the samples at the points of a surface, keeping components and type. May
- * be canceled, as isopoint_average_at_splat_vertices(). Integers are
- * rounded to the nearest, after conversion to double. Coincident samples are averaged.
+/* Interpolates an array of the samples at the points of a surface, keeping components and type.
+ * Integers are rounded to the nearest, after conversion to double. Coincident samples are averaged.
+ * @param surface made by isopoint_extract()
  * @param of_samples as many tuples as there were samples in isopoint_set_samples()
- * @param result memory for one tuple per point, contiguous */
+ * @param result memory for one tuple per point
+ * @param size of this memory, in bytes */
 ISOPOINT_API isopoint_status isopoint_interpolate(
-  const isopoint_surface* surface, const isopoint_array* of_samples, void* result);
+  const isopoint_surface* surface, const isopoint_array* of_samples, void* result, size_t size);
 
 /* Makes a surface from points with splats of an earlier surface, for example from a file, or a
- * subset of them, to make a splat mesh. It only has these arrays. Its calls run on all cores and
- * without callbacks, unless isopoint_set_surface_threads() and isopoint_set_surface_callbacks() set
- * others. O(n)
+ * subset of them, to make a splat mesh. It only has these arrays. O(n)
  * @param points three float or double
  * @param normals, axes, polygons one tuple per point, with types and components as their arrays
  * @param surface receives a surface, to be freed by isopoint_destroy_surface() */
@@ -518,9 +527,10 @@ ISOPOINT_API isopoint_status isopoint_make_splat_mesh(isopoint_surface* surface,
 /* Averages an array of the points at the vertices of splats: splats that meet at a vertex have
  * equal weight, so that colors are smooth across them.
  * @param of_points of type float or double, one tuple per point
- * @param result memory for one tuple per vertex, contiguous, of the same type */
+ * @param result memory for one tuple per vertex, of the same type
+ * @param size of this memory, in bytes */
 ISOPOINT_API isopoint_status isopoint_average_at_splat_vertices(
-  const isopoint_surface* surface, const isopoint_array* of_points, void* result);
+  const isopoint_surface* surface, const isopoint_array* of_points, void* result, size_t size);
 
 #ifdef __cplusplus
 }

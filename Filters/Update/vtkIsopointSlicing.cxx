@@ -66,51 +66,7 @@ vtkSmartPointer<vtkDoubleArray> positionsOf(const vtkIsopointBlock& block)
   return positions;
 }
 
-/// Whether no sample is beyond a slice, up to rounding: as by a box in the bounds of the samples.
-bool isOutermost(const isopoint::Report& report)
-{
-  constexpr double rounding = 1e-9;
-  const double near = report.greatest - rounding * (report.greatest - report.least);
-  return std::any_of(report.isovalues.begin(), report.isovalues.end(),
-    [&](double value) { return value >= near && value <= report.greatest; });
-}
-
 } // namespace
-
-/// Why the surface is empty, and the remedy.
-std::string vtkIsopointSlicing::WhyEmpty(isopoint::OptionNaming naming) const
-{
-  const isopoint::Report& report = this->Report;
-  const std::string whyNoTetrahedra = report.droppedCount() > 0
-                                        ? "all of it is in gaps between samples. Turn " +
-                                            naming(isopoint::option::dropGaps.name) + " off."
-                                        : "the samples are in one plane, or fewer than four.";
-  const auto isAny = [&](auto is)
-  { return std::any_of(report.isovalues.begin(), report.isovalues.end(), is); };
-  if (this->IsBody)
-  {
-    return whyNoTetrahedra;
-  }
-  if (report.isovalues.empty())
-  {
-    return "there are no offsets. Set one, such as 0.";
-  }
-  if (report.least == report.greatest)
-  {
-    return "the cut function is the same at all samples. Choose one that has samples on both sides.";
-  }
-  if (isOutermost(report))
-  {
-    return "no sample is beyond it. Move it among the samples; make a box or a sphere smaller.";
-  }
-  if (isAny([&](double value) { return value > report.least && value <= report.greatest; }))
-  {
-    return whyNoTetrahedra;
-  }
-  return isAny([&](double value) { return value == report.least; })
-           ? "samples on it count as above it, and none are below. Move it among the samples."
-           : "all samples are on one side of it. Move it among the samples.";
-}
 
 vtkIsopointSlicing::vtkIsopointSlicing(vtkIsopointUpdate& update)
   : Update(update)
@@ -134,7 +90,6 @@ void vtkIsopointSlicing::Run(
 {
   this->Report = isopoint::Report();
   this->Dropped.clear();
-  this->IsBody = options.Core.capping;
   const bool isDone = this->Update.Run(
     vtkDataObject::GetData(outputInfo), [&]() { this->Slice(options, inputInfo, outputInfo); },
     [this](isopoint::OptionNaming naming) { return this->Describe(naming); });
@@ -153,14 +108,15 @@ void vtkIsopointSlicing::Slice(
   Options options, vtkInformation* inputInfo, vtkInformation* outputInfo)
 {
   options.Core.keepTetrahedra = this->Update.KeepsTrees();
-  if (!options.Function && !this->IsBody)
+  if (!options.Function && !options.Core.capping)
   {
     throw isopoint::UsageError("There is no cut function. Set a plane or another one.");
   }
   const vtkIsopointCut cut(options.Function);
   cut.Check();
   isopoint::checkOptions(options.Core, this->Update.GetOptionNaming());
-  this->Update.CheckOptionsOnRanks(textOf(options), this->IsBody ? "find the body of" : "slice");
+  this->Update.CheckOptionsOnRanks(
+    textOf(options), options.Core.capping ? "find the body of" : "slice");
   const int ghostLevels = this->Update.GetGhostLevels(outputInfo);
 
   vtkIsopointCloud& cloud = this->Load(cut, inputInfo);
@@ -355,36 +311,11 @@ void vtkIsopointSlicing::Fit(
 
 std::vector<isopoint::Message> vtkIsopointSlicing::Describe(isopoint::OptionNaming naming) const
 {
-  const isopoint::Report& report = this->Report;
-  std::vector<isopoint::Message> messages;
-  const std::string thing = this->IsBody ? "body" : "slice";
-  const isopoint::Message skipped = isopoint::describeSkipped(report,
-    "There is no " + thing + ". Connect samples with finite positions.",
-    "The " + thing + " there is that of the samples around.");
-  if (!skipped.text.empty())
-  {
-    messages.push_back(skipped);
-  }
-  if (report.pointCount() == 0 && report.least <= report.greatest)
-  {
-    messages.push_back({ "empty " + thing,
-      (this->IsBody ? "There is no body: " : "The slice is empty: ") + this->WhyEmpty(naming) });
-  }
-  if (report.pointCount() > 0 && !this->IsBody && isOutermost(report))
-  {
-    messages.push_back({ "outermost slice",
-      "The slice is only where samples are on it, as no sample is beyond it. Move it among the"
-      " samples; make a box or a sphere smaller.",
-      isopoint::Message::Note });
-  }
+  std::vector<isopoint::Message> messages = isopoint::describeReport(this->Report, naming);
   if (!this->Dropped.empty())
   {
     messages.push_back(vtkDescribeLeftOut(
       this->Dropped, "Only arrays are kept that all blocks have, with the same components."));
-  }
-  if (report.isPieceOfProcess)
-  {
-    messages.push_back(isopoint::describePieces());
   }
   return messages;
 }

@@ -54,7 +54,6 @@ private:
   void CheckValues(const vtkIsopointCloud& cloud) const;
   void CheckFunctionOnRanks(const vtkIsopointCut& cut, const vtkIsopointCloud& cloud);
   vtkIsopointCloud& Load(const vtkIsopointCut& cut, vtkInformation* inputInfo);
-  std::string WhyEmpty(isopoint::OptionNaming naming) const;
   void FillOutput(const Options& options, const vtkIsopointCut& cut, vtkIsopointCloud& cloud,
     std::vector<isopoint::ExtractedIsosurface>& surfaces, vtkPolyData* output);
   void Fit(isopoint::PlaceMethod method, vtkIsopointCloud& cloud, vtkPolyData* output);
@@ -63,7 +62,6 @@ private:
   vtkIsopointUpdate& Update;
   isopoint::Report Report;
   std::set<std::string> Dropped; // arrays
-  bool IsBody = false;
 
   // Of the function at the samples, by block; kept with the tree.
   std::vector<vtkSmartPointer<vtkDoubleArray>> Values;

@@ -114,6 +114,34 @@ isopoint_array arrayOf(const Surface& surface, std::int32_t id)
   return array;
 }
 
+template <class T>
+isopoint_status interpolate(
+  const Surface& surface, const isopoint_array& ofSamples, std::vector<T>& result)
+{
+  return isopoint_interpolate(surface.get(), &ofSamples, result.data(), sizeof(T) * result.size());
+}
+
+template <class T>
+isopoint_status average(
+  const Surface& surface, const isopoint_array& ofPoints, std::vector<T>& result)
+{
+  return isopoint_average_at_splat_vertices(
+    surface.get(), &ofPoints, result.data(), sizeof(T) * result.size());
+}
+
+/// Memory for the results of one array.
+template <class T>
+isopoint_probe_result resultIn(std::vector<T>& values)
+{
+  return { values.data(), sizeof(T) * values.size(), nullptr, 0 };
+}
+template <class T>
+isopoint_probe_result resultIn(std::vector<T>& values, std::vector<double>& gradients)
+{
+  return { values.data(), sizeof(T) * values.size(), gradients.data(),
+    sizeof(double) * gradients.size() };
+}
+
 /// The numbers of an array of a surface.
 template <class T>
 std::vector<T> numbersOf(const Surface& surface, isopoint_array_id id)
@@ -296,12 +324,12 @@ TEST(Library, SlicesABlock)
   const isopoint_array points = arrayOf(slice, ISOPOINT_ARRAY_POINTS);
   const isopoint_array array = arrayOf(distances, ISOPOINT_DOUBLE, 1);
   std::vector<double> fitted(static_cast<std::size_t>(points.count));
-  const isopoint_probe_result result{ fitted.data(), nullptr };
+  const isopoint_probe_result result = resultIn(fitted);
   isopoint_probe_options options;
   isopoint_initialize_probe_options(&options, sizeof(options));
-  options.outside = ISOPOINT_OUTSIDE_EXTRAPOLATE;
-  ASSERT_EQ(
-    isopoint_probe(extractor.get(), &points, &array, 1, &options, &result, nullptr), ISOPOINT_OK);
+  options.outside = ISOPOINT_PROBE_OUTSIDE_EXTRAPOLATE;
+  ASSERT_EQ(isopoint_probe(extractor.get(), &points, &array, 1, &options, &result, nullptr, 0),
+    ISOPOINT_OK);
   const auto places = numbersOf<double>(slice, ISOPOINT_ARRAY_POINTS);
   for (std::size_t i = 0; i < fitted.size(); ++i)
   {
@@ -315,7 +343,7 @@ TEST(Library, ResultsDependOnNeitherThreadsNorWhatWasExtractedBefore)
 {
   const Cloud cloud;
   const Extractor one;
-  ASSERT_EQ(isopoint_set_threads(one.get(), 1), ISOPOINT_OK);
+  ASSERT_EQ(isopoint_set_extractor_threads(one.get(), 1), ISOPOINT_OK);
   ASSERT_EQ(cloud.load(one.get()), ISOPOINT_OK);
   const Extractor many(cloud);
   many.extract({ 0.4 });
@@ -378,7 +406,7 @@ void expectSameAsDouble(isopoint_type type)
   const auto parameters = numbersOf<double>(surface, ISOPOINT_ARRAY_EDGE_PARAMETERS);
   ASSERT_GT(parameters.size(), 500u);
   std::vector<T> result(parameters.size());
-  ASSERT_EQ(isopoint_interpolate(surface.get(), &values, result.data()), ISOPOINT_OK);
+  ASSERT_EQ(interpolate(surface, values, result), ISOPOINT_OK);
   for (std::size_t i = 0; i < parameters.size(); ++i)
   {
     const double first = cloud.values[static_cast<std::size_t>(edges[2 * i])];
@@ -450,10 +478,10 @@ TEST(Library, AnEmptySurfaceIsExplained)
   ASSERT_EQ(cloud.load(extractor.get(), std::vector<std::uint8_t>(10, 1)), ISOPOINT_OK);
   const Surface none = extractor.extract();
   ASSERT_NE(isopoint_get_message(none.get(), 0, nullptr), nullptr);
-  expectContains(isopoint_get_message(none.get(), 0, nullptr), "no sample");
+  expectContains(isopoint_get_message(none.get(), 0, nullptr), "All samples are excluded");
   EXPECT_EQ(isopoint_get_message_code(none.get(), 0), ISOPOINT_MESSAGE_NO_SAMPLES);
   const isopoint_array values = cloud.valueArray();
-  EXPECT_EQ(isopoint_interpolate(none.get(), &values, nullptr), ISOPOINT_OK);
+  EXPECT_EQ(isopoint_interpolate(none.get(), &values, nullptr, 0), ISOPOINT_OK);
   isopoint_get_value_range(extractor.get(), nullptr);
 }
 
@@ -479,6 +507,47 @@ TEST(Library, EachReasonOfAnEmptySurfaceHasACode)
   EXPECT_EQ(codeOf(cloud, 0.7), ISOPOINT_MESSAGE_NO_CROSSING);
   std::fill(cloud.values.begin(), cloud.values.end(), 0.7);
   EXPECT_EQ(codeOf(cloud, 0.7), ISOPOINT_MESSAGE_CONSTANT_VALUES);
+}
+
+// Known by the options. A slice may be beside the samples if another one is not.
+TEST(Library, SlicesAndBodiesHaveTheirOwnMessages)
+{
+  const auto slicing = optionsWith(
+    [](isopoint_options& options)
+    {
+      options.triangles = options.keep_hull_slivers = 1;
+      options.projection = ISOPOINT_PROJECTION_NONE;
+    });
+  isopoint_options closing = slicing;
+  closing.capping = 1;
+  closing.keep_hull_slivers = 0;
+  const auto expectMessage = [](const Cloud& cloud, const std::vector<double>& isovalues,
+                               const isopoint_options& options, const std::string& text,
+                               std::int32_t code)
+  {
+    const Surface surface = Extractor(cloud).extract(isovalues, options);
+    const char* const message = isopoint_get_message(surface.get(), 0, nullptr);
+    expectContains(message ? message : "", text);
+    EXPECT_EQ(isopoint_get_message_code(surface.get(), 0), code);
+    EXPECT_EQ(isopoint_get_message(surface.get(), 1, nullptr), nullptr);
+  };
+  const Cloud cloud;
+  const auto [least, greatest] = std::minmax_element(cloud.values.begin(), cloud.values.end());
+  expectMessage(cloud, { 0.7, 9.0 }, slicing, "", 0);
+  expectMessage(cloud, { 9.0 }, slicing, "No slice: all samples are on one side of it.",
+    ISOPOINT_MESSAGE_ISOVALUE_OUTSIDE);
+  expectMessage(cloud, { *least }, slicing, "No slice: samples on it count as above it",
+    ISOPOINT_MESSAGE_ISOVALUE_OUTSIDE);
+  expectMessage(cloud, { *greatest, 0.7 }, slicing, "The slice is only where samples are on it",
+    ISOPOINT_MESSAGE_ONLY_AT_SAMPLES);
+  expectMessage(
+    cloud, {}, slicing, "No slice: there are no offsets.", ISOPOINT_MESSAGE_NO_ISOVALUES);
+  expectMessage(cloud, {}, withTriangles, "No isosurface: there are no isovalues. Set one.",
+    ISOPOINT_MESSAGE_NO_ISOVALUES);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  expectMessage(Cloud(3), { -infinity }, closing, "No body: there are only 3 samples.",
+    ISOPOINT_MESSAGE_TOO_FEW_SAMPLES);
+  expectMessage(cloud, { -infinity }, closing, "", 0);
 }
 
 TEST(Library, LengthsThatOverflowFloatAreExplained)
@@ -616,7 +685,7 @@ TEST(Library, InvalidCallsAreErrors)
   expectInvalid(isopoint_extract(nullptr, &isovalue, 1, nullptr, nullptr), "extractor");
   expectInvalid(isopoint_extract(extractor.get(), &isovalue, 1, nullptr, nullptr));
   EXPECT_EQ(surface, nullptr);
-  expectInvalid(isopoint_set_threads(extractor.get(), -1));
+  expectInvalid(isopoint_set_extractor_threads(extractor.get(), -1));
   isopoint_array array;
   expectInvalid(isopoint_get_array(nullptr, ISOPOINT_ARRAY_POINTS, &array));
   const Surface made = extractor.extract();
@@ -631,8 +700,7 @@ TEST(Library, InvalidCallsAreErrors)
     isopoint_make_splat_mesh(plain.get(), 1.0), "compute_normals", ISOPOINT_INVALID_ORDER);
   const isopoint_array few{ cloud.values.data(), ISOPOINT_DOUBLE, 1, 7, 0, 0 };
   std::vector<double> result(100000);
-  expectInvalid(
-    isopoint_interpolate(made.get(), &few, result.data()), "5000", ISOPOINT_INVALID_ARRAY);
+  expectInvalid(interpolate(made, few, result), "5000", ISOPOINT_INVALID_ARRAY);
 }
 
 TEST(Library, InvalidArraysAreErrorsAndKeepTheSamples)
@@ -687,7 +755,8 @@ TEST(Library, ProgressAscendsOnTheCallersThread)
   const Cloud cloud(100000);
   const Extractor extractor;
   Observed observed;
-  ASSERT_EQ(isopoint_set_callbacks(extractor.get(), observe, isCanceled, &observed), ISOPOINT_OK);
+  ASSERT_EQ(
+    isopoint_set_extractor_callbacks(extractor.get(), observe, isCanceled, &observed), ISOPOINT_OK);
   for (int time = 0; time < 2; ++time) // the second time only values are replaced
   {
     observed.fractions.clear();
@@ -713,7 +782,8 @@ TEST(Library, ACanceledCallCanBeRepeated)
   const Extractor extractor(cloud);
   const std::string expected = bytesOf(extractor.extract());
   Observed observed;
-  ASSERT_EQ(isopoint_set_callbacks(extractor.get(), nullptr, isCanceled, &observed), ISOPOINT_OK);
+  ASSERT_EQ(
+    isopoint_set_extractor_callbacks(extractor.get(), nullptr, isCanceled, &observed), ISOPOINT_OK);
   const auto cancelAfter = [&observed](int questions)
   {
     observed.asked = 0;
@@ -733,6 +803,8 @@ TEST(Library, ACanceledCallCanBeRepeated)
   const Surface surface = extractor.extract();
   ASSERT_EQ(isopoint_make_splat_mesh(surface.get(), 1.0), ISOPOINT_OK);
   const std::string mesh = bytesOf(surface);
+  ASSERT_EQ(
+    isopoint_set_surface_callbacks(surface.get(), nullptr, isCanceled, &observed), ISOPOINT_OK);
   cancelAfter(0);
   EXPECT_EQ(isopoint_make_splat_mesh(surface.get(), 0.5), ISOPOINT_CANCELED);
   EXPECT_EQ(bytesOf(surface), mesh);
@@ -740,15 +812,14 @@ TEST(Library, ACanceledCallCanBeRepeated)
   const isopoint_array array = arrayOf(ofPoints, ISOPOINT_DOUBLE, 1);
   std::vector<double> means(
     numbersOf<std::int64_t>(surface, ISOPOINT_ARRAY_SPLAT_VERTEX_POINTS).size());
-  EXPECT_EQ(isopoint_average_at_splat_vertices(surface.get(), &array, means.data()), ISOPOINT_OK);
+  EXPECT_EQ(average(surface, array, means), ISOPOINT_OK);
   const isopoint_array values = cloud.valueArray();
   std::vector<double> samples(ofPoints.size());
-  EXPECT_EQ(isopoint_interpolate(surface.get(), &values, samples.data()), ISOPOINT_OK);
+  EXPECT_EQ(interpolate(surface, values, samples), ISOPOINT_OK);
   cancelAfter(0);
-  EXPECT_EQ(
-    isopoint_average_at_splat_vertices(surface.get(), &array, means.data()), ISOPOINT_CANCELED);
+  EXPECT_EQ(average(surface, array, means), ISOPOINT_CANCELED);
   cancelAfter(0);
-  EXPECT_EQ(isopoint_interpolate(surface.get(), &values, samples.data()), ISOPOINT_CANCELED);
+  EXPECT_EQ(interpolate(surface, values, samples), ISOPOINT_CANCELED);
   cancelAfter(0);
   EXPECT_EQ(cloud.load(extractor.get()), ISOPOINT_CANCELED);
   EXPECT_EQ(isopoint_get_sample_count(extractor.get()), 0);
@@ -759,7 +830,7 @@ TEST(Library, ACanceledCallCanBeRepeated)
 TEST(Library, CanceledTrianglesCanBeRepeated)
 {
   const Extractor extractor(Cloud(600));
-  ASSERT_EQ(isopoint_set_threads(extractor.get(), 1), ISOPOINT_OK);
+  ASSERT_EQ(isopoint_set_extractor_threads(extractor.get(), 1), ISOPOINT_OK);
   const isopoint_options dropping = optionsWith(
     [](isopoint_options& options)
     {
@@ -768,7 +839,8 @@ TEST(Library, CanceledTrianglesCanBeRepeated)
     });
   const std::string expected = bytesOf(extractor.extract({ 0.7 }, withTriangles));
   Observed observed;
-  ASSERT_EQ(isopoint_set_callbacks(extractor.get(), nullptr, isCanceled, &observed), ISOPOINT_OK);
+  ASSERT_EQ(
+    isopoint_set_extractor_callbacks(extractor.get(), nullptr, isCanceled, &observed), ISOPOINT_OK);
   isopoint_status status = ISOPOINT_CANCELED;
   int questions = 0;
   for (; status == ISOPOINT_CANCELED; ++questions)
@@ -788,12 +860,13 @@ TEST(Library, CanceledTrianglesCanBeRepeated)
   { return isCanceled(user) ? throw std::logic_error("thrown") : 0; };
   for (int back = 2; back < 8; ++back) // questions before the last one
   {
-    ASSERT_EQ(isopoint_set_callbacks(extractor.get(), nullptr, nullptr, nullptr), ISOPOINT_OK);
+    ASSERT_EQ(
+      isopoint_set_extractor_callbacks(extractor.get(), nullptr, nullptr, nullptr), ISOPOINT_OK);
     const Cloud cloud(600);
     ASSERT_EQ(cloud.load(extractor.get()), ISOPOINT_OK);
     ASSERT_EQ(bytesOf(extractor.extract({ 0.7 }, withTriangles)), expected);
-    ASSERT_EQ(
-      isopoint_set_callbacks(extractor.get(), nullptr, throwsAtTheEnd, &observed), ISOPOINT_OK);
+    ASSERT_EQ(isopoint_set_extractor_callbacks(extractor.get(), nullptr, throwsAtTheEnd, &observed),
+      ISOPOINT_OK);
     observed.asked = 0;
     observed.cancelAfter = questions - back;
     const double isovalue = 0.7;
@@ -803,13 +876,15 @@ TEST(Library, CanceledTrianglesCanBeRepeated)
   }
 }
 
-// Those of an extraction, which may be gone, and those of kept splats, which have none.
-TEST(Library, SurfacesTakeOtherCallbacksAndThreads)
+// Those of the extractor may be gone.
+TEST(Library, SurfacesHaveTheirOwnCallbacksAndThreads)
 {
   const Extractor extractor(Cloud(20000));
   Observed former;
-  ASSERT_EQ(isopoint_set_callbacks(extractor.get(), observe, isCanceled, &former), ISOPOINT_OK);
+  ASSERT_EQ(
+    isopoint_set_extractor_callbacks(extractor.get(), observe, isCanceled, &former), ISOPOINT_OK);
   const Surface extracted = extractor.extract();
+  EXPECT_EQ(former.fractions.back(), 1.0);
   const KeptSplats splats(extracted);
   isopoint_surface* created = nullptr;
   ASSERT_EQ(splats.create(&created), ISOPOINT_OK);
@@ -817,6 +892,7 @@ TEST(Library, SurfacesTakeOtherCallbacksAndThreads)
   former = Observed();
   for (const Surface* const surface : { &extracted, &kept })
   {
+    ASSERT_EQ(isopoint_make_splat_mesh(surface->get(), 1.0), ISOPOINT_OK);
     Observed observed;
     ASSERT_EQ(
       isopoint_set_surface_callbacks(surface->get(), observe, isCanceled, &observed), ISOPOINT_OK);
@@ -859,11 +935,11 @@ TEST(Library, MessagesHaveTheKeyOfTheirCause)
   EXPECT_NE(later[0], first[0]);
   EXPECT_EQ(later[1], first[1]);
   EXPECT_NE(messageAndKey(8.0)[1], first[1]);
-  ASSERT_EQ(isopoint_set_name(extractor.get(), "density"), ISOPOINT_OK);
+  ASSERT_EQ(isopoint_set_value_name(extractor.get(), "density"), ISOPOINT_OK);
   const auto named = messageAndKey(9.0);
   expectContains(named[0], "\"density\" is from");
   EXPECT_NE(named[1], first[1]);
-  ASSERT_EQ(isopoint_set_name(extractor.get(), nullptr), ISOPOINT_OK);
+  ASSERT_EQ(isopoint_set_value_name(extractor.get(), nullptr), ISOPOINT_OK);
   EXPECT_EQ(messageAndKey(9.0), later);
   EXPECT_EQ(isopoint_get_message_cause(nullptr, 0), nullptr);
 }
@@ -964,7 +1040,7 @@ TEST(Library, CallsFailInProcessesForkedDuringACall)
         });
     }
   };
-  ASSERT_EQ(isopoint_set_callbacks(extractor.get(), fork, nullptr, &known), ISOPOINT_OK);
+  ASSERT_EQ(isopoint_set_extractor_callbacks(extractor.get(), fork, nullptr, &known), ISOPOINT_OK);
   ASSERT_EQ(cloud.load(extractor.get()), ISOPOINT_OK);
   EXPECT_TRUE(known.hasForked);
   extractor.extract();
@@ -985,7 +1061,7 @@ TEST(Library, VersionsAreThoseOfTheHeader)
 
 TEST(Library, ErrorsAreThoseOfTheThread)
 {
-  expectInvalid(isopoint_set_threads(nullptr, 0));
+  expectInvalid(isopoint_set_extractor_threads(nullptr, 0));
   std::string elsewhere = "unset";
   std::thread([&]() { elsewhere = isopoint_get_error(); }).join();
   EXPECT_EQ(elsewhere, "");
@@ -1006,7 +1082,7 @@ TEST(Library, ABugLeavesNoSamplesAndItsWholeDescription)
 {
   const Extractor extractor(Cloud{});
   ASSERT_EQ(
-    isopoint_set_callbacks(
+    isopoint_set_extractor_callbacks(
       extractor.get(), [](void*, double) { throw std::logic_error(std::string(5000, '?')); },
       nullptr, nullptr),
     ISOPOINT_OK);
@@ -1024,11 +1100,11 @@ namespace
 {
 
 isopoint_probe_options probeOptions(
-  std::int32_t method, std::int32_t outside = ISOPOINT_OUTSIDE_NUMBER, double number = NAN)
+  std::int32_t method, std::int32_t outside = ISOPOINT_PROBE_OUTSIDE_NUMBER, double number = NAN)
 {
   isopoint_probe_options options;
   isopoint_initialize_probe_options(&options, sizeof(options));
-  EXPECT_EQ(options.method, ISOPOINT_METHOD_BLEND);
+  EXPECT_EQ(options.method, ISOPOINT_PROBE_BLEND);
   EXPECT_TRUE(std::isnan(options.outside_number));
   options.method = method;
   options.outside = outside;
@@ -1060,18 +1136,17 @@ TEST(Library, ArraysAreInterpolatedAtPlacesAndAgainFromNeighborhoods)
   }
   const std::array<isopoint_array, 2> arrays{ cloud.valueArray(),
     arrayOf(vectors, ISOPOINT_FLOAT, 2) };
-  for (const std::int32_t method : { ISOPOINT_METHOD_BLEND, ISOPOINT_METHOD_CUBIC })
+  for (const std::int32_t method : { ISOPOINT_PROBE_BLEND, ISOPOINT_PROBE_CUBIC })
   {
     const isopoint_probe_options options = probeOptions(method);
-    std::array<double, 3> values{};
-    std::array<double, 9> gradients{};
-    std::array<double, 6> components{};
+    std::vector<double> values(3);
+    std::vector<double> gradients(9);
+    std::vector<double> components(6);
     std::array<std::uint8_t, 3> flags{};
-    const std::array<isopoint_probe_result, 2> results{ isopoint_probe_result{
-                                                          values.data(), gradients.data() },
-      isopoint_probe_result{ components.data(), nullptr } };
-    ASSERT_EQ(isopoint_probe(
-                extractor.get(), &places, arrays.data(), 2, &options, results.data(), flags.data()),
+    const std::array<isopoint_probe_result, 2> results{ resultIn(values, gradients),
+      resultIn(components) };
+    ASSERT_EQ(isopoint_probe(extractor.get(), &places, arrays.data(), 2, &options, results.data(),
+                flags.data(), flags.size()),
       ISOPOINT_OK)
       << isopoint_get_error();
     EXPECT_NEAR(values[0], 0.75, 1e-3);
@@ -1083,10 +1158,10 @@ TEST(Library, ArraysAreInterpolatedAtPlacesAndAgainFromNeighborhoods)
     isopoint_neighborhoods* neighborhoods = nullptr;
     ASSERT_EQ(
       isopoint_find_neighborhoods(extractor.get(), &places, &options, &neighborhoods), ISOPOINT_OK);
-    std::array<double, 3> again{};
-    const isopoint_probe_result result{ again.data(), nullptr };
-    ASSERT_EQ(
-      isopoint_probe_neighborhoods(neighborhoods, arrays.data(), 1, &result, nullptr), ISOPOINT_OK);
+    std::vector<double> again(3);
+    const isopoint_probe_result result = resultIn(again);
+    ASSERT_EQ(isopoint_probe_neighborhoods(neighborhoods, arrays.data(), 1, &result, nullptr, 0),
+      ISOPOINT_OK);
     EXPECT_EQ(again[0], values[0]);
     EXPECT_EQ(again[1], values[1]);
     Observed observed;
@@ -1094,15 +1169,15 @@ TEST(Library, ArraysAreInterpolatedAtPlacesAndAgainFromNeighborhoods)
     EXPECT_EQ(isopoint_set_neighborhoods_callbacks(neighborhoods, observe, isCanceled, &observed),
       ISOPOINT_OK);
     EXPECT_EQ(isopoint_set_neighborhoods_threads(neighborhoods, 1), ISOPOINT_OK);
-    EXPECT_EQ(isopoint_probe_neighborhoods(neighborhoods, arrays.data(), 1, &result, nullptr),
+    EXPECT_EQ(isopoint_probe_neighborhoods(neighborhoods, arrays.data(), 1, &result, nullptr, 0),
       ISOPOINT_CANCELED);
     expectInvalid(isopoint_set_neighborhoods_threads(neighborhoods, -1), "threads");
     EXPECT_EQ(
       isopoint_set_neighborhoods_callbacks(neighborhoods, nullptr, nullptr, nullptr), ISOPOINT_OK);
-    EXPECT_EQ(
-      isopoint_probe_neighborhoods(neighborhoods, arrays.data(), 1, &result, nullptr), ISOPOINT_OK);
+    EXPECT_EQ(isopoint_probe_neighborhoods(neighborhoods, arrays.data(), 1, &result, nullptr, 0),
+      ISOPOINT_OK);
     isopoint_weights weights;
-    if (method == ISOPOINT_METHOD_BLEND)
+    if (method == ISOPOINT_PROBE_BLEND)
     {
       expectInvalid(
         isopoint_get_weights(neighborhoods, &weights), "not linear", ISOPOINT_INVALID_OPTION);
@@ -1134,7 +1209,7 @@ TEST(Library, ArraysAreInterpolatedAtPlacesAndAgainFromNeighborhoods)
 TEST(Library, ValuesAtPlacesAreTheSameAtAllScales)
 {
   const std::vector<double> at{ 0.5, 0.25, 0.5, -0.25, 0.5, 0.125, 9.0, 9.0, 9.0 };
-  for (const std::int32_t method : { ISOPOINT_METHOD_BLEND, ISOPOINT_METHOD_CUBIC })
+  for (const std::int32_t method : { ISOPOINT_PROBE_BLEND, ISOPOINT_PROBE_CUBIC })
   {
     const isopoint_probe_options options = probeOptions(method);
     std::vector<double> expected;
@@ -1154,8 +1229,8 @@ TEST(Library, ValuesAtPlacesAreTheSameAtAllScales)
       const isopoint_array places = arrayOf(where, ISOPOINT_DOUBLE, 3);
       std::vector<double> found(3);
       std::vector<double> gradients(9);
-      const isopoint_probe_result result{ found.data(), gradients.data() };
-      ASSERT_EQ(isopoint_probe(extractor.get(), &places, &array, 1, &options, &result, nullptr),
+      const isopoint_probe_result result = resultIn(found, gradients);
+      ASSERT_EQ(isopoint_probe(extractor.get(), &places, &array, 1, &options, &result, nullptr, 0),
         ISOPOINT_OK);
       for (std::size_t i = 0; i < 6; ++i)
       {
@@ -1168,9 +1243,9 @@ TEST(Library, ValuesAtPlacesAreTheSameAtAllScales)
       ASSERT_EQ(isopoint_find_neighborhoods(extractor.get(), &places, &options, &neighborhoods),
         ISOPOINT_OK);
       std::vector<double> again(9);
-      const isopoint_probe_result repeated{ found.data(), again.data() };
+      const isopoint_probe_result repeated = resultIn(found, again);
       ASSERT_EQ(
-        isopoint_probe_neighborhoods(neighborhoods, &array, 1, &repeated, nullptr), ISOPOINT_OK);
+        isopoint_probe_neighborhoods(neighborhoods, &array, 1, &repeated, nullptr, 0), ISOPOINT_OK);
       EXPECT_TRUE(std::equal(again.begin(), again.begin() + 6, gradients.begin()));
       isopoint_destroy_neighborhoods(neighborhoods);
     }
@@ -1194,18 +1269,18 @@ TEST(Library, TheNearestSampleKeepsItsType)
   const auto found = [&](std::int32_t outside, double number)
   {
     std::vector<std::int64_t> values(2, -1);
-    const isopoint_probe_options options = probeOptions(ISOPOINT_METHOD_NEAREST, outside, number);
-    const isopoint_probe_result result{ values.data(), nullptr };
-    EXPECT_EQ(
-      isopoint_probe(extractor.get(), &places, &array, 1, &options, &result, nullptr), ISOPOINT_OK);
+    const isopoint_probe_options options = probeOptions(ISOPOINT_PROBE_NEAREST, outside, number);
+    const isopoint_probe_result result = resultIn(values);
+    EXPECT_EQ(isopoint_probe(extractor.get(), &places, &array, 1, &options, &result, nullptr, 0),
+      ISOPOINT_OK);
     EXPECT_EQ(values[0], numbers[7]);
     return values[1];
   };
-  EXPECT_EQ(found(ISOPOINT_OUTSIDE_NUMBER, NAN), 0);
-  EXPECT_EQ(found(ISOPOINT_OUTSIDE_NUMBER, -5.0), -5);
-  EXPECT_EQ(found(ISOPOINT_OUTSIDE_NUMBER, 1e30), 0);
-  EXPECT_GE(found(ISOPOINT_OUTSIDE_NEAREST, NAN), numbers[0]);
-  EXPECT_GE(found(ISOPOINT_OUTSIDE_EXTRAPOLATE, NAN), numbers[0]);
+  EXPECT_EQ(found(ISOPOINT_PROBE_OUTSIDE_NUMBER, NAN), 0);
+  EXPECT_EQ(found(ISOPOINT_PROBE_OUTSIDE_NUMBER, -5.0), -5);
+  EXPECT_EQ(found(ISOPOINT_PROBE_OUTSIDE_NUMBER, 1e30), 0);
+  EXPECT_GE(found(ISOPOINT_PROBE_OUTSIDE_NEAREST, NAN), numbers[0]);
+  EXPECT_GE(found(ISOPOINT_PROBE_OUTSIDE_EXTRAPOLATE, NAN), numbers[0]);
 }
 
 TEST(Library, InvalidProbesAreErrors)
@@ -1215,11 +1290,11 @@ TEST(Library, InvalidProbesAreErrors)
   const isopoint_array array = cloud.valueArray();
   const isopoint_array places = cloud.positionArray();
   std::vector<double> numbers(300);
-  const isopoint_probe_result result{ numbers.data(), nullptr };
+  const isopoint_probe_result result = resultIn(numbers);
   const auto probe = [&](const isopoint_array& of, const isopoint_array& where,
                        const isopoint_probe_result& to, const isopoint_probe_options& options)
-  { return isopoint_probe(extractor.get(), &where, &of, 1, &options, &to, nullptr); };
-  const isopoint_probe_options usual = probeOptions(ISOPOINT_METHOD_BLEND);
+  { return isopoint_probe(extractor.get(), &where, &of, 1, &options, &to, nullptr, 0); };
+  const isopoint_probe_options usual = probeOptions(ISOPOINT_PROBE_BLEND);
   expectInvalid(probe(array, places, result, usual), "no samples", ISOPOINT_INVALID_ORDER);
   loadPositions(extractor, cloud);
   EXPECT_EQ(probe(array, places, result, usual), ISOPOINT_OK);
@@ -1227,28 +1302,37 @@ TEST(Library, InvalidProbesAreErrors)
   isopoint_array few = array;
   few.count = 99;
   expectInvalid(probe(few, places, result, usual), "Pass 100 of 1", ISOPOINT_INVALID_ARRAY);
-  expectInvalid(probe(array, places, { nullptr, nullptr }, usual), "memory");
+  const auto expectTooSmall = [&](const isopoint_probe_result& to, const std::string& text)
+  { expectInvalid(probe(array, places, to, usual), text, ISOPOINT_INVALID_ARRAY); };
+  std::vector<double> gradients(299);
+  expectTooSmall({ nullptr, 800, nullptr, 0 },
+    "The memory for values has 0 bytes. Pass memory for 100 tuples of 1 numbers of 8 bytes.");
+  expectTooSmall({ numbers.data(), 799, nullptr, 0 }, "The memory for values has 799 bytes");
+  expectTooSmall(resultIn(numbers, gradients), "The memory for gradients has 2392 bytes");
+  std::uint8_t flag = 0;
+  expectInvalid(isopoint_probe(extractor.get(), &places, &array, 1, &usual, &result, &flag, 99),
+    "The memory for flags has 99 bytes", ISOPOINT_INVALID_ARRAY);
   const isopoint_array nowhere{ nullptr, ISOPOINT_DOUBLE, 3, 0, 0, 0 };
-  EXPECT_EQ(probe(array, nowhere, { nullptr, nullptr }, usual), ISOPOINT_OK);
+  EXPECT_EQ(probe(array, nowhere, { nullptr, 0, nullptr, 0 }, usual), ISOPOINT_OK);
   expectInvalid(probe(array, places, result, probeOptions(5)), "method", ISOPOINT_INVALID_OPTION);
   expectInvalid(
     probe(array, places, result, probeOptions(0, 3)), "outside", ISOPOINT_INVALID_OPTION);
   expectInvalid(
-    probe(array, places, { numbers.data(), numbers.data() }, probeOptions(ISOPOINT_METHOD_NEAREST)),
+    probe(array, places, resultIn(numbers, numbers), probeOptions(ISOPOINT_PROBE_NEAREST)),
     "NEAREST", ISOPOINT_INVALID_OPTION);
   isopoint_probe_options unset = usual;
   unset.size = 1;
   expectInvalid(probe(array, places, result, unset), "isopoint_initialize_probe_options",
     ISOPOINT_INVALID_OPTION);
   expectInvalid(
-    isopoint_probe(extractor.get(), &places, nullptr, 1, nullptr, &result, nullptr), "arrays");
+    isopoint_probe(extractor.get(), &places, nullptr, 1, nullptr, &result, nullptr, 0), "arrays");
   isopoint_surface* surface = nullptr;
   const double isovalue = 0.5;
   expectInvalid(isopoint_extract(extractor.get(), &isovalue, 1, nullptr, &surface),
     "have no values", ISOPOINT_INVALID_ORDER);
   Observed observed;
   observed.cancelAfter = 0;
-  isopoint_set_callbacks(extractor.get(), observe, isCanceled, &observed);
+  isopoint_set_extractor_callbacks(extractor.get(), observe, isCanceled, &observed);
   EXPECT_EQ(probe(array, places, result, usual), ISOPOINT_CANCELED);
   EXPECT_EQ(probe(array, places, result, usual), ISOPOINT_OK);
   EXPECT_TRUE(std::is_sorted(observed.fractions.begin(), observed.fractions.end()));
@@ -1265,7 +1349,7 @@ TEST(Library, SurfacesOutliveTheirExtractor)
   EXPECT_EQ(bytesOf(surface), bytes);
   const isopoint_array values = cloud.valueArray();
   std::vector<double> result(numbersOf<double>(surface, ISOPOINT_ARRAY_ISOVALUES).size());
-  ASSERT_EQ(isopoint_interpolate(surface.get(), &values, result.data()), ISOPOINT_OK);
+  ASSERT_EQ(interpolate(surface, values, result), ISOPOINT_OK);
   ASSERT_EQ(isopoint_make_splat_mesh(surface.get(), 1.0), ISOPOINT_OK);
 }
 
@@ -1285,8 +1369,7 @@ TEST(Library, FieldsAreAveragedAtTheVerticesOfSplats)
   }
   const isopoint_array ofPoints = arrayOf(numbers, ISOPOINT_FLOAT, 2);
   std::vector<float> means(2 * points.size());
-  ASSERT_EQ(
-    isopoint_average_at_splat_vertices(surface.get(), &ofPoints, means.data()), ISOPOINT_OK);
+  ASSERT_EQ(average(surface, ofPoints, means), ISOPOINT_OK);
   std::size_t mixed = 0;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
@@ -1310,9 +1393,14 @@ TEST(Library, KeptSplatsYieldTheSameMesh)
   std::vector<float> means(
     3 * numbersOf<std::int64_t>(again, ISOPOINT_ARRAY_SPLAT_VERTEX_POINTS).size());
   const isopoint_array normals = arrayOf(kept.normals, ISOPOINT_FLOAT, 3);
-  EXPECT_EQ(isopoint_average_at_splat_vertices(again.get(), &normals, means.data()), ISOPOINT_OK);
+  EXPECT_EQ(average(again, normals, means), ISOPOINT_OK);
 
   isopoint_surface* created = nullptr;
+  expectInvalid(average(again, normals, means = { 0.0f }),
+    "The memory for the result has 4 bytes. Pass memory for", ISOPOINT_INVALID_ARRAY);
+  std::vector<double> values;
+  const isopoint_array none = arrayOf(values, ISOPOINT_DOUBLE, 1);
+  expectInvalid(interpolate(again, none, values), "made by isopoint_create_surface()");
   expectInvalid(kept.create(&created, 1), "normals", ISOPOINT_INVALID_ARRAY);
   expectInvalid(kept.create(nullptr));
   kept.axes.resize(kept.axes.size() - 3);

@@ -104,31 +104,33 @@ ISOPOINT_API int32_t isopoint_version_number(void);
 ISOPOINT_API isopoint_extractor* isopoint_create_extractor(void);
 ISOPOINT_API void isopoint_destroy_extractor(isopoint_extractor* extractor);
 ISOPOINT_API const char* isopoint_get_error(void);
-ISOPOINT_API isopoint_status isopoint_set_threads(isopoint_extractor* extractor, int32_t threads);
+ISOPOINT_API isopoint_status isopoint_set_extractor_threads(
+  isopoint_extractor* extractor, int32_t threads);
 typedef void (*isopoint_progress_callback)(void* user, double fraction);
 typedef int (*isopoint_cancel_callback)(void* user);
-ISOPOINT_API isopoint_status isopoint_set_callbacks(isopoint_extractor* extractor,
+ISOPOINT_API isopoint_status isopoint_set_extractor_callbacks(isopoint_extractor* extractor,
   isopoint_progress_callback progress, isopoint_cancel_callback cancels, void* user);
-ISOPOINT_API isopoint_status isopoint_set_name(isopoint_extractor* extractor, const char* name);
+ISOPOINT_API isopoint_status isopoint_set_value_name(
+  isopoint_extractor* extractor, const char* name);
 ISOPOINT_API isopoint_status isopoint_set_samples(isopoint_extractor* extractor,
   const isopoint_array* positions, const isopoint_array* values, const isopoint_array* excluded);
 ISOPOINT_API int64_t isopoint_get_sample_count(const isopoint_extractor* extractor);
 ISOPOINT_API int64_t isopoint_get_skipped_count(const isopoint_extractor* extractor);
 ISOPOINT_API void isopoint_get_value_range(const isopoint_extractor* extractor, double range[2]);
-typedef enum isopoint_method
+typedef enum isopoint_probe_method
 {
-  ISOPOINT_METHOD_BLEND = 0,
-  ISOPOINT_METHOD_CUBIC = 1,
-  ISOPOINT_METHOD_QUADRATIC = 2,
-  ISOPOINT_METHOD_AFFINE = 3,
-  ISOPOINT_METHOD_NEAREST = 4
-} isopoint_method;
-typedef enum isopoint_outside
+  ISOPOINT_PROBE_BLEND = 0,
+  ISOPOINT_PROBE_CUBIC = 1,
+  ISOPOINT_PROBE_QUADRATIC = 2,
+  ISOPOINT_PROBE_AFFINE = 3,
+  ISOPOINT_PROBE_NEAREST = 4
+} isopoint_probe_method;
+typedef enum isopoint_probe_outside
 {
-  ISOPOINT_OUTSIDE_NUMBER = 0,
-  ISOPOINT_OUTSIDE_NEAREST = 1,
-  ISOPOINT_OUTSIDE_EXTRAPOLATE = 2
-} isopoint_outside;
+  ISOPOINT_PROBE_OUTSIDE_NUMBER = 0,
+  ISOPOINT_PROBE_OUTSIDE_NEAREST = 1,
+  ISOPOINT_PROBE_OUTSIDE_EXTRAPOLATE = 2
+} isopoint_probe_outside;
 typedef struct isopoint_probe_options
 {
   uint64_t size;
@@ -140,7 +142,9 @@ ISOPOINT_API void isopoint_initialize_probe_options(isopoint_probe_options* opti
 typedef struct isopoint_probe_result
 {
   void* values;
+  uint64_t values_size;
   double* gradients;
+  uint64_t gradients_size;
 } isopoint_probe_result;
 typedef enum isopoint_place_flag
 {
@@ -149,7 +153,8 @@ typedef enum isopoint_place_flag
 } isopoint_place_flag;
 ISOPOINT_API isopoint_status isopoint_probe(isopoint_extractor* extractor,
   const isopoint_array* places, const isopoint_array* arrays, int64_t array_count,
-  const isopoint_probe_options* options, const isopoint_probe_result* results, uint8_t* flags);
+  const isopoint_probe_options* options, const isopoint_probe_result* results, uint8_t* flags,
+  size_t flags_size);
 typedef struct isopoint_neighborhoods isopoint_neighborhoods;
 ISOPOINT_API isopoint_status isopoint_find_neighborhoods(isopoint_extractor* extractor,
   const isopoint_array* places, const isopoint_probe_options* options,
@@ -161,7 +166,7 @@ ISOPOINT_API isopoint_status isopoint_set_neighborhoods_callbacks(
   isopoint_cancel_callback cancels, void* user);
 ISOPOINT_API isopoint_status isopoint_probe_neighborhoods(
   const isopoint_neighborhoods* neighborhoods, const isopoint_array* arrays, int64_t array_count,
-  const isopoint_probe_result* results, uint8_t* flags);
+  const isopoint_probe_result* results, uint8_t* flags, size_t flags_size);
 typedef struct isopoint_weights
 {
   int64_t row_count;
@@ -192,7 +197,9 @@ typedef enum isopoint_message_code
   ISOPOINT_MESSAGE_NO_CROSSING = 7,
   ISOPOINT_MESSAGE_POINTS_WITHOUT_FIT = 8,
   ISOPOINT_MESSAGE_SPLATS_APART = 9,
-  ISOPOINT_MESSAGE_BEYOND_FLOAT = 10
+  ISOPOINT_MESSAGE_BEYOND_FLOAT = 10,
+  ISOPOINT_MESSAGE_NO_ISOVALUES = 11,
+  ISOPOINT_MESSAGE_ONLY_AT_SAMPLES = 12
 } isopoint_message_code;
 ISOPOINT_API const char* isopoint_get_message(
   const isopoint_surface* surface, int64_t index, int32_t* is_warning);
@@ -225,13 +232,13 @@ typedef enum isopoint_array_id
 ISOPOINT_API isopoint_status isopoint_get_array(
   const isopoint_surface* surface, int32_t array_id, isopoint_array* array);
 ISOPOINT_API isopoint_status isopoint_interpolate(
-  const isopoint_surface* surface, const isopoint_array* of_samples, void* result);
+  const isopoint_surface* surface, const isopoint_array* of_samples, void* result, size_t size);
 ISOPOINT_API isopoint_status isopoint_create_surface(const isopoint_array* points,
   const isopoint_array* normals, const isopoint_array* axes, const isopoint_array* polygons,
   isopoint_surface** surface);
 ISOPOINT_API isopoint_status isopoint_make_splat_mesh(isopoint_surface* surface, double scale);
 ISOPOINT_API isopoint_status isopoint_average_at_splat_vertices(
-  const isopoint_surface* surface, const isopoint_array* of_points, void* result);
+  const isopoint_surface* surface, const isopoint_array* of_points, void* result, size_t size);
 #ifdef __cplusplus
 }
 #endif
