@@ -178,37 +178,3 @@ def rounded(numbers: np.ndarray, dtype: np.dtype) -> np.ndarray:
     with np.errstate(invalid="ignore"):
         nearest = (whole + np.where(np.abs(held - whole) >= 0.5, np.sign(held), 0.0)).astype(dtype)
     return np.where(numbers >= float(limits.max), limits.max, nearest).astype(dtype)
-
-
-def is_outermost(levels: list[float], least: float, greatest: float) -> bool:
-    """Whether no sample is beyond a slice, up to rounding: as by a box in the bounds of the samples."""
-    return any(greatest - 1e-9 * (greatest - least) <= level <= greatest for level in levels)
-
-
-def describe_empty(levels: list[float], least: float, greatest: float, dropped: int, beside: Optional[str] = None
-                   ) -> Optional[str]:
-    """Why slices at these levels are all empty, for samples with values from the least to the greatest.
-
-    Parameters
-    ----------
-    beside
-        The reason and the remedy for levels on one side of all samples, instead of a text with these numbers.
-    """
-    if least > greatest or math.isnan(least):
-        return None
-    if not levels:
-        reason = "there are no offsets. Set one, such as 0."
-    elif least == greatest:
-        reason = "the cut function is the same at all samples. Choose one that has samples on both sides."
-    elif is_outermost(levels, least, greatest):
-        reason = "no sample is beyond it. Move it among the samples; make a box or a sphere smaller."
-    elif any(least < level <= greatest for level in levels):
-        reason = ("all of it is in gaps between samples. Turn drop_gaps off." if dropped else
-                  "the samples are in one plane, or fewer than four.")
-    elif least in levels:
-        reason = "samples on it count as above it, and none are below. Move it among the samples."
-    else:
-        at = ", ".join(f"{level:g}" for level in levels[:5])
-        reason = beside or (f"the function is from {least:g} to {greatest:g} at the samples, and not at {at}. Move it"
-                            " among the samples.")
-    return f"The slice is empty: {reason}"

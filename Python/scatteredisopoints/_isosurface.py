@@ -236,7 +236,7 @@ def _at_vertices(surface: _library.Surface, array: np.ndarray, point_of_vertex, 
         return array[point_of_vertex]
     result = np.empty((len(point_of_vertex), *array.shape[1:]), array.dtype)
     _library.run_with(_library.Callbacks(is_canceled=is_canceled), surface,
-                      _library.average_at_splat_vertices, array, result)
+                      _library.average_at_splat_vertices, array, result, result.nbytes)
     return result
 
 

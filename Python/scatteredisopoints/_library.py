@@ -29,9 +29,6 @@ TYPES = tuple(np.dtype(kind) for kind in ("f4", "f8", "i1", "u1", "i2", "u2", "i
 OUTSIDE_NUMBER, OUTSIDE_NEAREST, OUTSIDE_EXTRAPOLATE = range(3)
 PLACE_OUTSIDE, PLACE_FLAT = 1, 2
 
-# isopoint_message_code: an isovalue without a surface
-EMPTY = range(3, 8)
-
 # isopoint_status
 (OK, INVALID_ARGUMENT, OUT_OF_MEMORY, CANCELED, INTERNAL_ERROR, INVALID_ARRAY, INVALID_OPTION, INVALID_ORDER,
  FORKED) = range(9)
@@ -87,7 +84,8 @@ class Memory:
 class Probed(ctypes.Structure):
     """isopoint_probe_result"""
 
-    _fields_ = [("values", c_void_p), ("gradients", POINTER(c_double))]
+    _fields_ = [("values", c_void_p), ("values_size", c_uint64), ("gradients", POINTER(c_double)),
+                ("gradients_size", c_uint64)]
 
 
 class ProbedMemory:
@@ -98,9 +96,10 @@ class ProbedMemory:
         described = (Probed * len(pairs))()
         described.pairs = pairs
         for each, (values, gradients) in zip(described, pairs):
-            each.values = Memory.from_param(values).data
+            each.values, each.values_size = Memory.from_param(values).data, values.nbytes
             if gradients is not None:
-                each.gradients = Memory.from_param(gradients).data_as(POINTER(c_double))
+                each.gradients, each.gradients_size = (
+                    Memory.from_param(gradients).data_as(POINTER(c_double)), gradients.nbytes)
         return described
 
 
@@ -146,15 +145,16 @@ version = _declare("version", result=c_char_p)
 initialize_options = _declare("initialize_options", POINTER(Options), c_size_t, result=None)
 create_extractor = _declare("create_extractor", result=c_void_p)
 destroy_extractor = _declare("destroy_extractor", c_void_p, result=None)
-set_threads = _declare("set_threads", c_void_p, c_int32)
-set_callbacks = _declare("set_callbacks", c_void_p, Progress, Cancels, c_void_p)
-set_name = _declare("set_name", c_void_p, c_char_p)
+set_extractor_threads = _declare("set_extractor_threads", c_void_p, c_int32)
+set_extractor_callbacks = _declare("set_extractor_callbacks", c_void_p, Progress, Cancels, c_void_p)
+set_value_name = _declare("set_value_name", c_void_p, c_char_p)
 set_samples = _declare("set_samples", c_void_p, Numbers, Numbers, Numbers)
 get_value_range = _declare("get_value_range", c_void_p, POINTER(2 * c_double), result=None)
 extract = _declare("extract", c_void_p, POINTER(c_double), c_int64, POINTER(Options),
                    POINTER(c_void_p))
 initialize_probe_options = _declare("initialize_probe_options", POINTER(ProbeOptions), c_size_t, result=None)
-probe = _declare("probe", c_void_p, Numbers, ManyNumbers, c_int64, POINTER(ProbeOptions), ProbedMemory, Memory)
+probe = _declare("probe", c_void_p, Numbers, ManyNumbers, c_int64, POINTER(ProbeOptions), ProbedMemory, Memory,
+                 c_size_t)
 create_surface = _declare("create_surface", Numbers, Numbers, Numbers, Numbers, POINTER(c_void_p))
 destroy_surface = _declare("destroy_surface", c_void_p, result=None)
 set_surface_threads = _declare("set_surface_threads", c_void_p, c_int32)
@@ -167,9 +167,9 @@ get_message_cause = _declare("get_message_cause", c_void_p, c_int64, result=c_ch
 get_message_code = _declare("get_message_code", c_void_p, c_int64, result=c_int32)
 join_messages = _declare("join_messages", c_void_p, c_void_p)
 get_array = _declare("get_array", c_void_p, c_int32, POINTER(Array))
-interpolate = _declare("interpolate", c_void_p, Numbers, Memory)
+interpolate = _declare("interpolate", c_void_p, Numbers, Memory, c_size_t)
 make_splat_mesh = _declare("make_splat_mesh", c_void_p, c_double)
-average_at_splat_vertices = _declare("average_at_splat_vertices", c_void_p, Numbers, Memory)
+average_at_splat_vertices = _declare("average_at_splat_vertices", c_void_p, Numbers, Memory, c_size_t)
 
 
 class Handle:
@@ -184,25 +184,17 @@ class Handle:
         self._as_parameter_ = c_void_p(pointer)
         weakref.finalize(self, self.destroy, pointer).atexit = False
 
-    def forget_callbacks(self) -> None:
-        """Makes the library forget callbacks, which live during one call only."""
-        self.set_callbacks(self, Progress(), Cancels(), None)
-
 
 class Extractor(Handle):
     """Owns an isopoint_extractor."""
 
-    destroy, set_callbacks = destroy_extractor, set_callbacks
+    destroy, set_callbacks = destroy_extractor, set_extractor_callbacks
 
 
 class Surface(Handle):
     """Owns an isopoint_surface."""
 
     destroy, set_callbacks = destroy_surface, set_surface_callbacks
-
-    def __init__(self, pointer: int | None):
-        super().__init__(pointer)
-        self.forget_callbacks()  # those of the extraction
 
 
 class Callbacks:
@@ -319,7 +311,7 @@ def run_with(callbacks: Callbacks, handle: Handle, function: Any, *arguments: An
         run(handle.set_callbacks, handle, progress, cancels, None)
         status = function(handle, *arguments)
     finally:
-        handle.forget_callbacks()
+        handle.set_callbacks(handle, Progress(), Cancels(), None)
         _Calls.end()
     error, callbacks.error = callbacks.error, None
     try:

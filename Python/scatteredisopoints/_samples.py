@@ -40,18 +40,11 @@ class Extracted:
     surface: _library.Surface
     own_messages: list[_library.Message]
     """Messages of this package, beside those of the library."""
-    sign: int
-    """-1 if the library extracted from the negated values."""
 
     @property
     def messages(self) -> list[_library.Message]:
         """All messages."""
-        of_library = _library.messages(self.surface)
-        if self.sign < 0:
-            prefix = "Of the negated values, as gradient_direction takes them: "
-            of_library = [replace(each, text=prefix + each.text) if each.code in _library.EMPTY else each
-                          for each in of_library]
-        return of_library + self.own_messages
+        return _library.messages(self.surface) + self.own_messages
 
 
 class Samples:
@@ -179,8 +172,7 @@ class Samples:
         with self._exclusive():
             self._is_loaded, self._held = False, None
             self._values, self._masked = values, masked
-            _library.run(_library.set_threads, self._extractor, thread_count(self._threads))
-            _library.run(_library.set_name, self._extractor, self._name.encode(errors="replace"))
+            _library.run(_library.set_extractor_threads, self._extractor, thread_count(self._threads))
             self._hold(_VALUES[1], numbers, [self._excluded, masked], callbacks)
             self._range = self._held_range()
             self._skipped = _library.get_skipped_count(self._extractor)
@@ -194,6 +186,8 @@ class Samples:
         self._held = None
         positions = positions_of(self._current("positions", self._positions))
         masks = [each for each in left_out if each is not None]
+        name = f"negated {self._name or 'values'}" if key == _VALUES[-1] else self._name
+        _library.run(_library.set_value_name, self._extractor, name.encode(errors="replace"))
         _library.run_with(
             _library.Callbacks(**callbacks), self._extractor, _library.set_samples, positions, numbers,
             np.any(masks, axis=0).view(np.uint8) if masks else None)
@@ -272,7 +266,7 @@ class Samples:
             self._require_samples()
             if self._values is None:
                 raise ValueError("The samples were made without values: call replace_values().")
-            _library.run(_library.set_threads, self._extractor, most_threads)
+            _library.run(_library.set_extractor_threads, self._extractor, most_threads)
             self._hold_values({**callbacks, "progress": None}, sign)
             surface = self._surface([sign * level for level in levels], chosen, callbacks)
             value_type, masked = self._value_type, self._masked
@@ -298,7 +292,7 @@ class Samples:
             for name in computed if name in found]
         found.update(computed)
         isosurface = self._as_isosurface(surface, found, levels, chosen, threads, sign)
-        return Extracted(isosurface, surface, messages, sign)
+        return Extracted(isosurface, surface, messages)
 
     def _surface(self, levels: list[float], options: _library.Options, callbacks: Mapping[str, Any]
                  ) -> _library.Surface:
@@ -423,25 +417,20 @@ class Samples:
         most_threads = thread_count(self._threads if threads is None else threads)
         with self._exclusive():
             self._require_samples()
-            _library.run(_library.set_threads, self._extractor, most_threads)
+            _library.run(_library.set_extractor_threads, self._extractor, most_threads)
             if leaves_out and self._skipped > 0:
                 self._hold_values({})
             _library.run_with(
                 _library.Callbacks(report), self._extractor, _library.probe, points,
                 [array.reshape(len(array), -1) for array in numbers.values()], len(numbers), byref(options),
-                list(zip(values.values(), gradients.values())), kinds)
+                list(zip(values.values(), gradients.values())), kinds, kinds.nbytes)
         return values, gradients, kinds
 
-    def _describe_left_out(self, skipped: Optional[int] = None) -> Iterator[str]:
-        """Messages about samples that are left out.
-
-        skipped: how many a slice leaves out; None: as many as a contour.
-        """
-        lacking = "position or value is not finite, or masked" if skipped is None else "position is not finite"
-        skipped = self._skipped if skipped is None else skipped
-        skipped -= 0 if self._excluded is None else np.count_nonzero(self._excluded)
+    def _describe_left_out(self) -> Iterator[str]:
+        """Messages about samples that are left out."""
+        skipped = self._skipped - (0 if self._excluded is None else np.count_nonzero(self._excluded))
         if skipped > 0:
-            yield f"{skipped} of {len(self)} samples are left out: their {lacking}."
+            yield f"{skipped} of {len(self)} samples are left out: their position or value is not finite, or masked."
         if self._without_array:
             yield _datasets.describe_without_array(self._without_array, self._name).text
 
@@ -495,7 +484,8 @@ class Samples:
             array = readable(name, self._current(name, array))
             found[name] = np.empty((count, *array.shape[1:]), array.dtype)
             _library.run_with(_library.Callbacks(is_canceled=is_canceled), surface, _library.interpolate,
-                              array if array.ndim < 3 else array.reshape(len(array), -1), found[name])
+                              array if array.ndim < 3 else array.reshape(len(array), -1), found[name],
+                              found[name].nbytes)
         return found
 
     def _contoured(self, surface, options: _library.Options, sign: int, is_canceled) -> np.ndarray:

@@ -5,14 +5,14 @@ from __future__ import annotations
 
 import math
 import warnings
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Mapping, Optional
 
 import numpy as np
 
 from . import _datasets, _library
 from ._arrays import as_numpy, levels_of, readable
-from ._cuts import Cut, Normal, describe_empty, make_cut, rounded, shares_to_zero
+from ._cuts import Cut, Normal, make_cut, rounded, shares_to_zero
 from ._isosurface import Isosurface, describe_not_finite
 from ._options import INTERPOLATIONS, make_probe_options, make_slice_options, named, thread_count
 from ._progress import Progress, part, shown_progress
@@ -33,46 +33,32 @@ def sliced(samples: Samples, normal: Optional[Normal], origin: Any, arrays: Any,
     chosen = make_slice_options(options)
     of_samples = samples._arrays_of(arrays)
     with shown_progress(progress, "Slicing") as report:
-        made = make_slice(samples, cut, levels, chosen, of_samples, method, threads, report)
-    empty = describe_empty(levels, *made.range, made.dropped) if len(made.isosurface) == 0 else None
-    warn_of(samples, made.isosurface, made.skipped, arrays is None, empty, stacklevel + 1)
-    return made.isosurface
+        made, messages = make_slice(samples, cut, levels, chosen, of_samples, method, threads, report)
+    warn_of(samples, made, messages, arrays is None, stacklevel + 1)
+    return made
 
 
-def warn_of(samples: Samples, isosurface: Isosurface, skipped: int, has_all_arrays: bool, empty: Optional[str],
+def warn_of(samples: Samples, isosurface: Isosurface, messages: list[_library.Message], has_all_arrays: bool,
             stacklevel: int) -> None:
-    """Warns of samples and arrays that are left out, and why the surface is empty."""
-    texts = [*samples._describe_left_out(skipped), *describe_not_finite(isosurface.arrays)]
+    """Warns by messages, and of arrays that are left out or not finite."""
+    texts = [*(message.text for message in messages), *describe_not_finite(isosurface.arrays)]
     if has_all_arrays and samples._differing:
         texts.append(_datasets.describe_differing(samples._differing))
-    for text in texts if empty is None else [*texts, empty]:
+    for text in texts:
         warnings.warn(text, RuntimeWarning, stacklevel=stacklevel)
 
 
-@dataclass
-class Slice:
-    """A slice, and what tells why it may be empty."""
-
-    isosurface: Isosurface
-    range: tuple[float, float]
-    """Of the function at the samples."""
-    dropped: int
-    """The number of tetrahedra in gaps."""
-    skipped: int
-    """The number of samples without a finite position, and of hidden ones."""
-
-
 def make_slice(samples: Samples, cut: Cut, levels: list[float], options: _library.Options,
-               of_samples: Mapping[str, Any], method: Optional[str], threads: Optional[int], report: Any) -> Slice:
-    """A slice at levels of a function, with arrays by name. Calls `report` with the share done."""
+               of_samples: Mapping[str, Any], method: Optional[str], threads: Optional[int], report: Any
+               ) -> tuple[Isosurface, list[_library.Message]]:
+    """A slice at levels of a function, with arrays by name, and messages. Calls `report` with the share done."""
     threads = samples._threads if threads is None else threads
     most_threads = thread_count(threads)
     with samples._exclusive():
         samples._require_samples()
-        _library.run(_library.set_threads, samples._extractor, most_threads)
+        _library.run(_library.set_extractor_threads, samples._extractor, most_threads)
         at_samples = _hold_cut(samples, cut, part(report, 0.0, 0.3))
         surface = samples._surface(levels, options, {"progress": part(report, 0.3, 0.6)})
-        held_range, skipped = samples._held_range(), _library.get_skipped_count(samples._extractor)
     points = _library.view(surface, _library.POINTS)
     found = samples._interpolated(surface, of_samples, None)
     if cut.normal is None and at_samples is not None and len(points):
@@ -81,7 +67,7 @@ def make_slice(samples: Samples, cut: Cut, levels: list[float], options: _librar
         _fit(samples, points, of_samples, found, method, threads, part(report, 0.6, 1.0))
     made = Isosurface(points, triangles=_library.view(surface, _library.TRIANGLES), arrays=found,
                       make_polydata=replace(samples._maker, normals=None), threads=threads)
-    return Slice(made, held_range, _library.get_dropped_count(surface), skipped)
+    return made, _library.messages(surface)
 
 
 def _center_of_bounds(samples: Samples) -> np.ndarray:

@@ -286,7 +286,7 @@ class ScatteredAlgorithm(Algorithm):
         excluded = 0 if samples._excluded is None else int(np.count_nonzero(samples._excluded))
         array = f'"{samples._name}"' if samples._name else "the array"
         reasons = ((samples.skipped - excluded, "not finite"),
-                   (samples._without_array, f"in blocks without {array}"), (excluded, "ghost or hidden"))
+                   (samples._without_array, f"in blocks without {array}"), (excluded, "excluded"))
         if reasons[0][0] + reasons[1][0] == 0:
             return []
         count, skipped = self._counts["Samples"], self._counts["SkippedSamples"]

@@ -27,13 +27,9 @@ class vtkScatteredBodyFilter(ScatteredAlgorithm):
     def _compute(self, data: Any, output: Any) -> list[_library.Message]:
         samples = self._all_samples(data)
         options = {name: self._values[property_name(name)] for name in (*OPTIONS, "keep_tree")}
-        made = make_body(samples, options, samples._arrays_of(None), None, part(self._advance, LOADED, 1.0))
-        output.ShallowCopy(made.isosurface.polydata)
+        made, messages = make_body(samples, options, samples._arrays_of(None), None, part(self._advance, LOADED, 1.0))
+        output.ShallowCopy(made.polydata)
         self._count_samples(samples)
-        self._counts["ExtractedPoints"] = len(made.isosurface)
-        empty = made.describe_empty()
-        return [*self._describe_skipped(samples, "There is no body. Connect samples with finite positions.",
-                                        "The body there is that of the samples around."),
-                *([] if empty is None else [_library.Message(empty, is_warning=True, cause="empty body")]),
-                *describe_left_out(
-                    samples._differing, "Only arrays are kept that all blocks have, with the same components.")]
+        self._counts["ExtractedPoints"] = len(made)
+        return [*messages, *describe_left_out(
+            samples._differing, "Only arrays are kept that all blocks have, with the same components.")]

@@ -9,11 +9,11 @@ from vtkmodules.vtkCommonCore import vtkWeakReference
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from . import _library
-from ._cuts import cut_by, describe_empty, is_outermost
+from ._cuts import cut_by
 from ._option_types import SliceOptions
 from ._options import INTERPOLATIONS, make_slice_options, property_name
 from ._progress import part
-from ._slices import Slice, make_slice
+from ._slices import make_slice
 from ._vtk_algorithm import LOADED, ContourValues, ScatteredAlgorithm, describe_left_out, with_counts, with_properties
 
 
@@ -54,16 +54,14 @@ class vtkScatteredSliceFilter(ContourValues, ScatteredAlgorithm):
         levels = [level + value for value in self.GetValues()]
         options = make_slice_options({name: self._values[property_name(name)] for name in SliceOptions.__annotations__})
         options.keep_tetrahedra = self._values["KeepTree"]
-        made = make_slice(samples, cut, levels, options, samples._arrays_of(None),
-                          [*INTERPOLATIONS.values()][self._values["Interpolation"]], None,
-                          part(self._advance, LOADED, 1.0))
-        output.ShallowCopy(made.isosurface.polydata)
+        made, messages = make_slice(samples, cut, levels, options, samples._arrays_of(None),
+                                    [*INTERPOLATIONS.values()][self._values["Interpolation"]], None,
+                                    part(self._advance, LOADED, 1.0))
+        output.ShallowCopy(made.polydata)
         self._count_samples(samples)
-        self._counts["ExtractedPoints"] = len(made.isosurface)
-        return [*self._describe_skipped(samples, "There is no slice. Connect samples with finite positions.",
-                                        "The slice there is that of the samples around."),
-                *_describe(made, levels), *describe_left_out(
-                    samples._differing, "Only arrays are kept that all blocks have, with the same components.")]
+        self._counts["ExtractedPoints"] = len(made)
+        return [*messages, *describe_left_out(
+            samples._differing, "Only arrays are kept that all blocks have, with the same components.")]
 
 
 def _modifying(slice_: vtkScatteredSliceFilter) -> Any:
@@ -77,14 +75,3 @@ def _modifying(slice_: vtkScatteredSliceFilter) -> Any:
             alive.Modified()
 
     return modify
-
-
-def _describe(made: Slice, levels: list[float]) -> list[_library.Message]:
-    least, greatest = made.range
-    if len(made.isosurface) == 0:
-        text = describe_empty(levels, least, greatest, made.dropped,
-                              "all samples are on one side of it. Move it among the samples.")
-        return [] if text is None else [_library.Message(text, is_warning=True, cause="empty slice")]
-    return [] if not is_outermost(levels, least, greatest) else [_library.Message(
-        "The slice is only where samples are on it, as no sample is beyond it. Move it among the samples; make a box or"
-        " a sphere smaller.", is_warning=False, cause="outermost slice")]

@@ -145,9 +145,9 @@ TEST(BodyFilter, MessagesNameTheCause)
   const auto warnings = watchMessages(filter, vtkCommand::WarningEvent);
   expectEmpty(updated(filter));
   expectContains(
-    warnings->last(), "There is no body: the samples are in one plane, or fewer than four.");
+    warnings->last(), "No body: the samples are in one plane. Add samples beside it.");
   move(cloud->GetPoints(), [](const Vector&) { return Vector{ notANumber, 0.0, 0.0 }; });
   cloud->GetPoints()->Modified();
   expectEmpty(updated(filter));
-  expectContains(warnings->last(), "There is no body. Connect samples with finite positions.");
+  expectContains(warnings->last(), "There is no body. Mend the positions.");
 }

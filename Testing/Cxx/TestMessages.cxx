@@ -229,7 +229,7 @@ TEST(Messages, GhostsAreNotedBesideOtherReasonsAlone)
   distancesOf(cloud)->SetValue(5, notANumber);
   distancesOf(cloud)->Modified();
   expectOne(
-    messagesOf(filter, vtkCommand::MessageEvent), { "2 of 500", "1 not finite", "1 ghost" });
+    messagesOf(filter, vtkCommand::MessageEvent), { "2 of 500", "1 not finite", "1 excluded" });
 }
 
 TEST(Messages, PointsThatNoFitMovesAreCountedWhereTheyAreMost)

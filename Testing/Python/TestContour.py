@@ -182,7 +182,7 @@ class ContourTest(unittest.TestCase):
         hull = body(positions[np.abs(positions[:, 0] - 0.5) > 0.2], drop_gaps=False)
         self.assertEqual(len(hull.pieces), 1)
         self.assertEqual(len(body(positions[np.abs(positions[:, 0] - 0.5) > 0.2]).pieces), 2)
-        with self.assertWarnsRegex(RuntimeWarning, "There is no body: the samples are in one plane, or fewer than"):
+        with self.assertWarnsRegex(RuntimeWarning, "No body: the samples are in one plane. Add samples beside it."):
             self.assertEqual(body(positions * [1, 1, 0]).volume, 0.0)
         with self.assertRaisesRegex(TypeError, "unknown option capping: there are drop_gaps"):
             body(positions, capping=True)
@@ -242,11 +242,14 @@ class ContourTest(unittest.TestCase):
         np.testing.assert_array_equal(kept.contour(0.3).points, before.points)
         self.assertGreater(contour(cloud_of(positions, distance), None, 0.3, gradient_direction="ascent",
                                    triangles=True).volume, 0)
-        with self.assertWarnsRegex(RuntimeWarning, "Of the negated values, as gradient_direction takes them: No"
-                                   " isosurface at -3: "):
+        with self.assertWarnsRegex(RuntimeWarning, 'No isosurface at -3: "negated values" is from .* to -'):
             kept.contour(3.0, gradient_direction="ascent")
+        with self.assertWarnsRegex(RuntimeWarning, "No isosurface at 3: the array is from"):
+            kept.contour(3.0)
+        with self.assertWarnsRegex(RuntimeWarning, 'No isosurface at -3: "negated f" is from'):
+            contour(cloud_of(positions, distance, "f"), "f", 3.0, gradient_direction="ascent")
         apart = np.vstack([positions, positions + 100.0])
-        with self.assertWarnsRegex(RuntimeWarning, "Of the negated values.* No isosurface at -0.5: all of it is in"):
+        with self.assertWarnsRegex(RuntimeWarning, 'No isosurface at -0.5 of "negated values": all of it is'):
             contour(apart, np.repeat([0.0, 1.0], len(positions)), 0.5, triangles=True, gradient_direction="ascent")
         np.testing.assert_array_equal(kept.contour(0.3, gradient_direction="ASCENT").points, outwards.points)
         with self.assertRaisesRegex(ValueError, "gradient_direction cannot be 'up': it is \"descent\" or"):
@@ -328,7 +331,8 @@ class ContourTest(unittest.TestCase):
                                     (np.ma.masked_array([0.2, 0.3], [True, False]), (0.3,))):
             self.same(contour(positions, values, isovalues), data, expected)
         for arguments in ((positions, values), (data, None)):
-            self.assertEqual(len(contour(*arguments, range(1, 0))), 0)
+            with self.assertWarnsRegex(RuntimeWarning, "No isosurface: there are no isovalues. Set one."):
+                self.assertEqual(len(contour(*arguments, range(1, 0))), 0)
         for wrong in (True, [True, False], {0.3: 1}, "0.3", None):
             with self.assertRaisesRegex(TypeError, "isovalues are"):
                 contour(positions, values, wrong)
@@ -341,7 +345,7 @@ class ContourTest(unittest.TestCase):
             contour(positions, values, values.max(), triangles=True)
         with self.assertWarnsRegex(RuntimeWarning, "Choose isovalues that are less than"):
             contour(positions, values, values.max(), triangles=True, capping=True)
-        with self.assertWarnsRegex(RuntimeWarning, "no tetrahedron of the samples crosses it. Of samples in one plane"):
+        with self.assertWarnsRegex(RuntimeWarning, "No body: the samples are in one plane. Add"):
             contour(positions * [1, 1, 0], values, -np.inf, triangles=True, capping=True)
 
     def test_isovalues_in_gaps_and_others(self):

@@ -78,11 +78,11 @@ class Signatures(unittest.TestCase):
                  "PRECISION_INPUT": "DEFAULT_PRECISION"}
         found = {}
         for name, number in re.findall(
-                r"ISOPOINT_((?:PROJECTION_|NORMALS_|PRECISION_|METHOD_)\w+) = (-?\d+)", self.text):
+                r"ISOPOINT_((?:PROJECTION_|NORMALS_|PRECISION_|PROBE_(?!OUTSIDE))\w+) = (-?\d+)", self.text):
             own = re.sub(r"^PROJECTION_(.*)", r"\1_FIT", re.sub(
-                r"^PRECISION_(.*)", r"\1_PRECISION", re.sub("^METHOD_", "", name)))
+                r"^PRECISION_(.*)", r"\1_PRECISION", re.sub("^PROBE_", "", name)))
             found[names.get(name, own)] = int(number)
-        for name, number in re.findall(r"ISOPOINT_((?:OUTSIDE|PLACE)_\w+) = (\d+)", self.text):
+        for name, number in re.findall(r"ISOPOINT_(?:PROBE_)?((?:OUTSIDE|PLACE)_\w+) = (\d+)", self.text):
             self.assertEqual(getattr(_library, name, int(number)), int(number))
         ours = {name.upper(): number for constants in _options.CONSTANTS.values() for name, number in constants.items()}
         self.assertEqual(found, ours)

@@ -124,7 +124,7 @@ class PlaceFilters(FilterTests):
         self.assertEqual([(each.GetNumberOfSamples(), each.GetNumberOfSkippedSamples()) for each in filters],
                          [(1003, 3), (1000, 0)])
         self.assert_one(self.texts_of(self.probe(marked, places), "MessageEvent"),
-                        "Skipped 3 of 1003 samples: 1 not finite, 2 ghost or hidden. Values there are those of")
+                        "Skipped 3 of 1003 samples: 1 not finite, 2 excluded. Values there are those of")
 
     def test_arrays_of_all_blocks(self):
         places, blocks = some_places(), self.blocks()
@@ -429,7 +429,7 @@ class PlaceFilters(FilterTests):
         samples = cloud(500)
         self.assert_error(self.new("Slice", samples, CutFunction=None), "no cut function")
         filter_ = self.new("Slice", samples, Value=(0, 9.0))
-        self.assert_one(self.texts_of(filter_), "The slice is empty: all samples are on one side of it.")
+        self.assert_one(self.texts_of(filter_), "No slice: all samples are on one side of it.")
         self.assertEqual(names_in(filter_.GetOutput().GetPointData()), ["distance", "x", "position"])
         apart = cloud(500)
         vtk_to_numpy(apart.GetPoints().GetData())[250:] += [0, 0, 50]

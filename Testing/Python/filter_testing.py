@@ -19,7 +19,6 @@ DIFFERENCES = (
     "String arrays are left out.",
     "Each piece of isosurfaces and slices is the whole.",
     "Isosurfaces: samples of blocks without the array have a message of their own.",
-    'Isosurfaces: messages call ghosts "excluded".',
     "Slices: call `Modified()` after changes of the function's transform, or of functions within it.",
     "`vtkIsopointSplatPolygons`: points without normals have no polygons.",
 )
