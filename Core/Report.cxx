@@ -163,26 +163,29 @@ Message describeEmptyIsovalues(
     Message::Warning, code };
 }
 
-/// Why slices are empty or partial. Some of several may be beside the samples.
+/// Why all slices are empty, or that one is partial. Some may be beside the samples.
 Message describeSlices(const Report& report, OptionNaming naming)
 {
+  const auto isAny = [&](double from, double to)
+  {
+    return std::any_of(report.isovalues.begin(), report.isovalues.end(),
+      [&](double value) { return value >= from && value <= to; });
+  };
+  const double least = report.least;
+  const double greatest = report.greatest;
   // Up to rounding, as by a box in the bounds of the samples.
-  const double near = report.greatest - 1e-9 * (report.greatest - report.least);
-  const auto isAny = [&](auto is)
-  { return std::any_of(report.isovalues.begin(), report.isovalues.end(), is); };
-  const bool isOutermost =
-    isAny([&](double value) { return value >= near && value <= report.greatest; });
+  const bool isOutermost = isAny(greatest - 1e-9 * (greatest - least), greatest);
   const std::string remedy = " Move it among the samples; make a box or a sphere smaller.";
   if (report.pointCount() > 0)
   {
-    return isOutermost ? Message{ "outermost slice",
+    const Message atSamples{ "outermost slice",
       "The slice is only where samples are on it, as no sample is beyond it." + remedy,
-      Message::Note, Message::OnlyAtSamples }
-                       : Message();
+      Message::Note, Message::OnlyAtSamples };
+    return isOutermost ? atSamples : Message();
   }
   Reason reason{ Message::IsovalueOutside,
     "all samples are on one side of it. Move it among the samples." };
-  if (report.least == report.greatest)
+  if (least == greatest)
   {
     reason = { Message::ConstantValues,
       "the cut function is the same at all samples. Choose one that has samples on both sides." };
@@ -191,11 +194,11 @@ Message describeSlices(const Report& report, OptionNaming naming)
   {
     reason.second = "no sample is beyond it." + remedy;
   }
-  else if (isAny([&](double value) { return value > report.least && value < report.greatest; }))
+  else if (isAny(std::nextafter(least, greatest), greatest))
   {
     reason = reasonOfEmptyIsovalue(report, report.droppedCount() > 0, naming);
   }
-  else if (isAny([&](double value) { return value == report.least; }))
+  else if (isAny(least, least))
   {
     reason.second =
       "samples on it count as above it, and none are below. Move it among the samples.";

@@ -229,17 +229,6 @@ isopoint::Options optionsFrom(const isopoint_options* given)
   return isopoint::effectiveOptions(options);
 }
 
-/// @param threads maximum number, or 0 for all cores
-/// @throws UsageError if it is negative
-void checkThreads(std::int32_t threads)
-{
-  if (threads < 0)
-  {
-    throw UsageError("The number of threads is " + std::to_string(threads) +
-                     ". Pass 0, for all cores, or a number above.");
-  }
-}
-
 /// Keeps the library on Windows when a program unloads it: oneTBB's threads may still run. Linux
 /// always keeps it, by CMakeLists.txt, and macOS, since it has thread_local variables.
 void stayLoaded()
@@ -252,43 +241,43 @@ void stayLoaded()
 }
 
 /// @param threads maximum number, or 0 for all cores
-isopoint::Execution executionOnThreads(std::int32_t threads)
+/// @throws UsageError if it is negative
+void setThreads(isopoint::Execution& execution, std::int32_t threads)
 {
-  isopoint::Execution execution;
+  if (threads < 0)
+  {
+    throw UsageError("The number of threads is " + std::to_string(threads) +
+                     ". Pass 0, for all cores, or a number above.");
+  }
+  isopoint::Execution chosen;
   const std::size_t available = isopoint::availableThreadsOfRank();
-  const std::size_t chosen =
+  const std::size_t most =
     threads > 0 ? std::min(static_cast<std::size_t>(threads), available) : available;
-  if (chosen > 1)
+  if (most > 1)
   {
     stayLoaded();
-    isopoint::useThreads(execution, chosen);
+    isopoint::useThreads(chosen, most);
   }
-  return execution;
+  execution.parallelFor = chosen.parallelFor;
+  execution.threads = chosen.threads;
 }
 
-/// What a program passes to isopoint_set_extractor_callbacks() and its like.
-struct Callbacks
+/// @param progress, cancels may be null
+void setCallbacks(isopoint::Execution& execution, isopoint_progress_callback progress,
+  isopoint_cancel_callback cancels, void* user)
 {
-  isopoint_progress_callback Progress = nullptr;
-  isopoint_cancel_callback Cancels = nullptr;
-  void* User = nullptr;
-
-  void addTo(isopoint::Execution& execution) const
+  isopoint::Execution chosen;
+  if (progress)
   {
-    const isopoint::Execution none;
-    execution.progress = none.progress;
-    execution.aborted = none.aborted;
-    if (this->Progress)
-    {
-      execution.progress = [call = this->Progress, user = this->User](double fraction)
-      { call(user, fraction); };
-    }
-    if (this->Cancels)
-    {
-      execution.aborted = [call = this->Cancels, user = this->User]() { return call(user) != 0; };
-    }
+    chosen.progress = [progress, user](double fraction) { progress(user, fraction); };
   }
-};
+  if (cancels)
+  {
+    chosen.aborted = [cancels, user]() { return cancels(user) != 0; };
+  }
+  execution.progress = chosen.progress;
+  execution.aborted = chosen.aborted;
+}
 
 /// @param report with the counts of all clouds
 std::vector<isopoint::Message> describe(const isopoint::Report& report)
@@ -314,8 +303,8 @@ struct isopoint_extractor
   std::string Name;        // of the values
   bool HasSamples = false; // even if all are skipped
   bool HasValues = false;
-  std::int32_t Threads = 0; // 0: all cores
-  Callbacks Calls;
+  std::int32_t Threads = 0;      // 0: all cores
+  isopoint::Execution Execution; // with its callbacks
 
   void clear()
   {
@@ -324,10 +313,11 @@ struct isopoint_extractor
     this->HasSamples = this->HasValues = false;
   }
 
+  /// Of one call: the number of available cores may change.
   isopoint::Execution makeExecution() const
   {
-    isopoint::Execution execution = executionOnThreads(this->Threads);
-    this->Calls.addTo(execution);
+    isopoint::Execution execution = this->Execution;
+    setThreads(execution, this->Threads);
     return execution;
   }
 };
@@ -360,14 +350,6 @@ isopoint_status runOnSamples(isopoint_extractor* extractor, const Call& call)
     extractor->clear();
   }
   return status;
-}
-
-void setThreads(isopoint::Execution& execution, std::int32_t threads)
-{
-  checkThreads(threads);
-  const isopoint::Execution chosen = executionOnThreads(threads);
-  execution.parallelFor = chosen.parallelFor;
-  execution.threads = chosen.threads;
 }
 
 } // namespace
@@ -414,7 +396,7 @@ isopoint_status isopoint_set_extractor_threads(isopoint_extractor* extractor, in
   return runOn(extractor, "extractor",
     [&]()
     {
-      checkThreads(threads);
+      setThreads(extractor->Execution, threads);
       extractor->Threads = threads;
     });
 }
@@ -422,7 +404,8 @@ isopoint_status isopoint_set_extractor_threads(isopoint_extractor* extractor, in
 isopoint_status isopoint_set_extractor_callbacks(isopoint_extractor* extractor,
   isopoint_progress_callback progress, isopoint_cancel_callback cancels, void* user)
 {
-  return runOn(extractor, "extractor", [&]() { extractor->Calls = { progress, cancels, user }; });
+  return runOn(
+    extractor, "extractor", [&]() { setCallbacks(extractor->Execution, progress, cancels, user); });
 }
 
 isopoint_status isopoint_set_value_name(isopoint_extractor* extractor, const char* name)
@@ -487,21 +470,6 @@ void isopoint_initialize_probe_options(isopoint_probe_options* options, size_t s
   isopoint::giveOptions(all, options, size);
 }
 
-namespace
-{
-
-/// @param flags null, or memory for one per place
-/// @throws UsageError
-void requireFlags(const std::uint8_t* flags, std::size_t size, std::size_t places)
-{
-  if (flags)
-  {
-    isopoint::requireMemory(flags, size, "flags", places, 1, 1);
-  }
-}
-
-} // namespace
-
 isopoint_status isopoint_probe(isopoint_extractor* extractor, const isopoint_array* places,
   const isopoint_array* arrays, int64_t array_count, const isopoint_probe_options* options,
   const isopoint_probe_result* results, uint8_t* flags, size_t flags_size)
@@ -513,7 +481,10 @@ isopoint_status isopoint_probe(isopoint_extractor* extractor, const isopoint_arr
       const isopoint::ProbeOptions chosen = isopoint::probeOptionsFrom(options);
       const auto probed = isopoint::probedArrays(
         arrays, array_count, results, extractor->Counts.items, all.size(), chosen);
-      requireFlags(flags, flags_size, all.size());
+      if (flags)
+      {
+        isopoint::requireMemory(flags, flags_size, "flags", all.size(), 1, 1);
+      }
       extractor->Extractor.probe(extractor->makeExecution(), all, chosen, probed, flags);
     });
 }
@@ -526,9 +497,12 @@ isopoint_status isopoint_find_neighborhoods(isopoint_extractor* extractor,
     [&]()
     {
       require(neighborhoods, "pointer to neighborhoods");
-      *neighborhoods = new isopoint_neighborhoods{ executionOnThreads(extractor->Threads),
-        extractor->Extractor.findNeighborhoods(extractor->makeExecution(),
-          isopoint::placesFrom(places), isopoint::probeOptionsFrom(options)),
+      const isopoint::Execution execution = extractor->makeExecution();
+      isopoint::Execution own = execution;
+      setCallbacks(own, nullptr, nullptr, nullptr);
+      *neighborhoods = new isopoint_neighborhoods{ own,
+        extractor->Extractor.findNeighborhoods(
+          execution, isopoint::placesFrom(places), isopoint::probeOptionsFrom(options)),
         static_cast<std::size_t>(extractor->Counts.items) };
     });
 }
@@ -544,9 +518,7 @@ isopoint_status isopoint_set_neighborhoods_callbacks(isopoint_neighborhoods* nei
   isopoint_progress_callback progress, isopoint_cancel_callback cancels, void* user)
 {
   return runOn(neighborhoods, "neighborhoods",
-    [&]() {
-      Callbacks{ progress, cancels, user }.addTo(neighborhoods->execution);
-    });
+    [&]() { setCallbacks(neighborhoods->execution, progress, cancels, user); });
 }
 
 isopoint_status isopoint_probe_neighborhoods(const isopoint_neighborhoods* neighborhoods,
@@ -557,12 +529,12 @@ isopoint_status isopoint_probe_neighborhoods(const isopoint_neighborhoods* neigh
     [&]()
     {
       const isopoint::Neighborhoods& found = neighborhoods->found;
-      requireFlags(flags, flags_size, found.places.size());
       isopoint::probeNeighborhoods(neighborhoods->execution, found,
         isopoint::probedArrays(arrays, array_count, results, neighborhoods->sampleCount,
           found.places.size(), found.options));
       if (flags)
       {
+        isopoint::requireMemory(flags, flags_size, "flags", found.kinds.size(), 1, 1);
         std::copy(found.kinds.begin(), found.kinds.end(), flags);
       }
     });
@@ -618,7 +590,7 @@ isopoint_status isopoint_extract(isopoint_extractor* extractor, const double* is
         extractor->Types.areFloatPositions, report,
         static_cast<std::size_t>(extractor->Counts.items));
       made->messages = describe(report);
-      made->execution = executionOnThreads(extractor->Threads);
+      setCallbacks(made->execution, nullptr, nullptr, nullptr);
       execution.progress(1.0);
       *surface = made.release();
     });
@@ -637,10 +609,8 @@ isopoint_status isopoint_set_surface_threads(isopoint_surface* surface, int32_t 
 isopoint_status isopoint_set_surface_callbacks(isopoint_surface* surface,
   isopoint_progress_callback progress, isopoint_cancel_callback cancels, void* user)
 {
-  return runOn(surface, "surface",
-    [&]() {
-      Callbacks{ progress, cancels, user }.addTo(surface->execution);
-    });
+  return runOn(
+    surface, "surface", [&]() { setCallbacks(surface->execution, progress, cancels, user); });
 }
 
 namespace
@@ -742,7 +712,11 @@ isopoint_status isopoint_create_surface(const isopoint_array* points, const isop
 {
   return runOn(surface, "pointer to the surface",
     [&]()
-    { *surface = new isopoint_surface(executionOnThreads(0), points, normals, axes, polygons); });
+    {
+      isopoint::Execution execution;
+      setThreads(execution, 0);
+      *surface = new isopoint_surface(execution, points, normals, axes, polygons);
+    });
 }
 
 isopoint_status isopoint_make_splat_mesh(isopoint_surface* surface, double scale)

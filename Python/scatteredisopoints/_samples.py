@@ -28,9 +28,6 @@ from ._options import (
 from ._progress import Progress, shown_progress
 from ._slices import sliced
 
-_VALUES = {1: "values", -1: "negated values"}
-"""The keys of the samples' own values by their sign: see Samples._hold()."""
-
 
 @dataclass
 class Extracted:
@@ -173,8 +170,10 @@ class Samples:
             self._is_loaded, self._held = False, None
             self._values, self._masked = values, masked
             _library.run(_library.set_extractor_threads, self._extractor, thread_count(self._threads))
-            self._hold(_VALUES[1], numbers, [self._excluded, masked], callbacks)
-            self._range = self._held_range()
+            self._hold(1, numbers, [self._excluded, masked], callbacks)
+            range_ = (2 * c_double)()
+            _library.get_value_range(self._extractor, byref(range_))
+            self._range = range_[0], range_[1]
             self._skipped = _library.get_skipped_count(self._extractor)
             is_float = numbers is not None and numbers.dtype == np.float32
             self._value_type = np.float32 if are_float and is_float else np.float64
@@ -182,11 +181,12 @@ class Samples:
 
     def _hold(self, key: Any, numbers: Any, left_out: list[Optional[np.ndarray]], callbacks: Mapping[str, Any]
               ) -> None:
-        """Makes these numbers the values that the extractor holds. Their key says which ones they are."""
+        """Makes these numbers the values that the extractor holds. Their key says which ones they are: a cut's, "body",
+        or for the samples' own values their sign."""
         self._held = None
         positions = positions_of(self._current("positions", self._positions))
         masks = [each for each in left_out if each is not None]
-        name = f"negated {self._name or 'values'}" if key == _VALUES[-1] else self._name
+        name = f"negated {self._name or 'values'}" if key == -1 else self._name
         _library.run(_library.set_value_name, self._extractor, name.encode(errors="replace"))
         _library.run_with(
             _library.Callbacks(**callbacks), self._extractor, _library.set_samples, positions, numbers,
@@ -198,18 +198,13 @@ class Samples:
 
         sign: -1 negates them.
         """
-        if self._held != _VALUES[sign] and self._values is not None:
+        if self._held != sign and self._values is not None:
             numbers = readable("values", as_numpy(self._values))
             if sign < 0:
                 is_narrow = numbers.dtype.kind in "iu" and numbers.dtype.itemsize < 8
                 wide = np.int64 if is_narrow else numbers.dtype if numbers.dtype == np.float32 else np.float64
                 numbers = -numbers.astype(wide, copy=False)
-            self._hold(_VALUES[sign], numbers, [self._excluded, self._masked], callbacks)
-
-    def _held_range(self) -> tuple[float, float]:
-        range_ = (2 * c_double)()
-        _library.get_value_range(self._extractor, byref(range_))
-        return range_[0], range_[1]
+            self._hold(sign, numbers, [self._excluded, self._masked], callbacks)
 
     def _require_samples(self) -> None:
         if not self._is_loaded:

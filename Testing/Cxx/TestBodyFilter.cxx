@@ -144,8 +144,7 @@ TEST(BodyFilter, MessagesNameTheCause)
   filter->SetInputDataObject(cloud);
   const auto warnings = watchMessages(filter, vtkCommand::WarningEvent);
   expectEmpty(updated(filter));
-  expectContains(
-    warnings->last(), "No body: the samples are in one plane. Add samples beside it.");
+  expectContains(warnings->last(), "No body: the samples are in one plane. Add samples beside it.");
   move(cloud->GetPoints(), [](const Vector&) { return Vector{ notANumber, 0.0, 0.0 }; });
   cloud->GetPoints()->Modified();
   expectEmpty(updated(filter));

@@ -1156,12 +1156,19 @@ TEST(Library, ArraysAreInterpolatedAtPlacesAndAgainFromNeighborhoods)
     EXPECT_EQ(flags, (std::array<std::uint8_t, 3>{ 0, 0, ISOPOINT_PLACE_OUTSIDE }));
 
     isopoint_neighborhoods* neighborhoods = nullptr;
+    Observed former; // may be gone when neighborhoods are probed
+    ASSERT_EQ(
+      isopoint_set_extractor_callbacks(extractor.get(), observe, isCanceled, &former), ISOPOINT_OK);
     ASSERT_EQ(
       isopoint_find_neighborhoods(extractor.get(), &places, &options, &neighborhoods), ISOPOINT_OK);
+    isopoint_set_extractor_callbacks(extractor.get(), nullptr, nullptr, nullptr);
+    const int asked = former.asked;
+    EXPECT_GT(asked, 0);
     std::vector<double> again(3);
     const isopoint_probe_result result = resultIn(again);
     ASSERT_EQ(isopoint_probe_neighborhoods(neighborhoods, arrays.data(), 1, &result, nullptr, 0),
       ISOPOINT_OK);
+    EXPECT_EQ(former.asked, asked);
     EXPECT_EQ(again[0], values[0]);
     EXPECT_EQ(again[1], values[1]);
     Observed observed;
