@@ -297,17 +297,6 @@ Message describeBeyondFloat(const Report& report)
     Message::Warning, Message::BeyondFloat };
 }
 
-Message describePieces(const Report& report)
-{
-  if (!report.isPieceOfProcess)
-  {
-    return {};
-  }
-  return { "pieces of processes",
-    "Each process yields a piece of the surface of its own samples. If the processes have"
-    " different samples, call SetController() with the global controller." };
-}
-
 std::vector<Message> describeReplacedArrays(const Report& report)
 {
   std::vector<Message> messages;
@@ -319,11 +308,6 @@ std::vector<Message> describeReplacedArrays(const Report& report)
         " array off." });
   }
   return messages;
-}
-
-std::string nameOf(Report::Subjects subject)
-{
-  return subject == Report::Isosurface ? "isosurface" : subject == Report::Slice ? "slice" : "body";
 }
 
 Report::Subjects subjectOf(const Options& options, const std::vector<double>& isovalues)
@@ -496,20 +480,32 @@ void Report::share(ProcessGroup& processes)
 std::vector<Message> describeReport(const Report& report, OptionNaming naming)
 {
   std::vector<Message> messages = describeIsovalues(report, naming);
-  const char* const remedy = report.subject == Report::Isosurface
-                               ? ". Choose another array, or mend the positions."
-                               : ". Mend the positions.";
-  messages.push_back(describeSkipped(report, "There is no " + nameOf(report.subject) + remedy,
+  messages.push_back(describeSkipped(report,
+    report.subject == Report::Isosurface
+      ? "There is no surface. Choose another array, or mend the positions."
+      : "There is no surface. Mend the positions.",
     "The surface there is that of the samples around."));
   messages.push_back(describeUnprojected(report, naming));
   messages.push_back(describeCornersApart(report));
   messages.push_back(describeBeyondFloat(report));
-  messages.push_back(describePieces(report));
   const std::vector<Message> replaced = describeReplacedArrays(report);
   messages.insert(messages.end(), replaced.begin(), replaced.end());
   messages.erase(std::remove_if(messages.begin(), messages.end(),
                    [](const Message& message) { return message.text.empty(); }),
     messages.end());
+  if (messages.empty() && report.samples == report.skippedCount())
+  {
+    messages.push_back({ "no samples",
+      report.samples == 0 ? "There are no samples. Add some."
+                          : "All samples are excluded. Include some.",
+      Message::Warning, Message::NoSamples });
+  }
+  if (report.isPieceOfProcess)
+  {
+    messages.push_back({ "pieces of processes",
+      "Each process yields a piece of the surface of its own samples. If the processes have"
+      " different samples, call SetController() with the global controller." });
+  }
   return messages;
 }
 

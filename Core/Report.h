@@ -133,7 +133,8 @@ struct Report : SampleCounts
   void share(ProcessGroup& processes);
 };
 
-/// One message for each cause. Samples left out only by the caller cause none.
+/// One message for each cause. Samples left out only by the caller cause none, unless these are
+/// all.
 /// @throws std::bad_alloc
 std::vector<Message> describeReport(const Report& report, OptionNaming naming = sameName);
 

@@ -162,17 +162,16 @@ private:
 };
 
 /// @param size of the memory for results, in bytes
-/// @throws UsageError unless it holds `count` tuples of `components` numbers of `bytes` each
+/// @throws UsageError unless it holds `count` tuples of `bytes` each
 inline void requireMemory(const void* memory, std::uint64_t size, const char* results,
-  std::size_t count, std::uint64_t components, std::size_t bytes)
+  std::size_t count, std::uint64_t bytes)
 {
   const std::uint64_t given = memory ? size : 0;
-  if (given / bytes / components < count)
+  if (given / bytes < count)
   {
     throw UsageError(std::string("The memory for ") + results + " has " + std::to_string(given) +
-                       " bytes. Pass memory for " + std::to_string(count) + " tuples of " +
-                       std::to_string(components) + " numbers of " + std::to_string(bytes) +
-                       (bytes > 1 ? " bytes." : " byte."),
+                       " bytes. Pass " + std::to_string(count) + " times " + std::to_string(bytes) +
+                       " bytes.",
       UsageError::Array);
   }
 }

@@ -279,20 +279,6 @@ void setCallbacks(isopoint::Execution& execution, isopoint_progress_callback pro
   execution.aborted = chosen.aborted;
 }
 
-/// @param report with the counts of all clouds
-std::vector<isopoint::Message> describe(const isopoint::Report& report)
-{
-  std::vector<isopoint::Message> messages = isopoint::describeReport(report, memberName);
-  if (messages.empty() && report.samples == report.skippedCount())
-  {
-    messages.push_back({ "no samples",
-      report.samples == 0 ? "There are no samples. Pass some."
-                          : "All samples are excluded. Pass some that are not.",
-      isopoint::Message::Warning, isopoint::Message::NoSamples });
-  }
-  return messages;
-}
-
 } // namespace
 
 struct isopoint_extractor
@@ -483,7 +469,7 @@ isopoint_status isopoint_probe(isopoint_extractor* extractor, const isopoint_arr
         arrays, array_count, results, extractor->Counts.items, all.size(), chosen);
       if (flags)
       {
-        isopoint::requireMemory(flags, flags_size, "flags", all.size(), 1, 1);
+        isopoint::requireMemory(flags, flags_size, "flags", all.size(), 1);
       }
       extractor->Extractor.probe(extractor->makeExecution(), all, chosen, probed, flags);
     });
@@ -534,7 +520,7 @@ isopoint_status isopoint_probe_neighborhoods(const isopoint_neighborhoods* neigh
           found.places.size(), found.options));
       if (flags)
       {
-        isopoint::requireMemory(flags, flags_size, "flags", found.kinds.size(), 1, 1);
+        isopoint::requireMemory(flags, flags_size, "flags", found.kinds.size(), 1);
         std::copy(found.kinds.begin(), found.kinds.end(), flags);
       }
     });
@@ -589,7 +575,7 @@ isopoint_status isopoint_extract(isopoint_extractor* extractor, const double* is
       auto made = std::make_unique<isopoint_surface>(execution, std::move(parts), chosen,
         extractor->Types.areFloatPositions, report,
         static_cast<std::size_t>(extractor->Counts.items));
-      made->messages = describe(report);
+      made->messages = isopoint::describeReport(report, memberName);
       setCallbacks(made->execution, nullptr, nullptr, nullptr);
       execution.progress(1.0);
       *surface = made.release();
@@ -675,7 +661,7 @@ isopoint_status isopoint_join_messages(isopoint_surface* surface, const isopoint
       }
       isopoint::Report joined = surface->report;
       joined.add(other->report);
-      surface->messages = describe(joined);
+      surface->messages = isopoint::describeReport(joined, memberName);
       surface->report = std::move(joined);
     });
 }

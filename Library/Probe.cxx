@@ -63,14 +63,14 @@ ProbeOptions probeOptionsFrom(const isopoint_probe_options* given)
   if (all.method < ISOPOINT_PROBE_BLEND || all.method > ISOPOINT_PROBE_NEAREST)
   {
     throw UsageError(
-      "The method is " + std::to_string(all.method) + ". Use an ISOPOINT_PROBE, 0 to 4.",
+      "The method is " + std::to_string(all.method) + ". Use an isopoint_probe_method, 0 to 4.",
       UsageError::Option);
   }
   if (all.outside < ISOPOINT_PROBE_OUTSIDE_NUMBER ||
       all.outside > ISOPOINT_PROBE_OUTSIDE_EXTRAPOLATE)
   {
     throw UsageError("The option outside is " + std::to_string(all.outside) +
-                       ". Use an ISOPOINT_PROBE_OUTSIDE, 0 to 2.",
+                       ". Use an isopoint_probe_outside, 0 to 2.",
       UsageError::Option);
   }
   return { static_cast<PlaceMethod>(all.method), static_cast<OutsideStrategy>(all.outside),
@@ -104,8 +104,8 @@ ProbedArray probedArray(const isopoint_array& array, const isopoint_probe_result
   reader.require(sampleCount, reader.components());
   const auto components = static_cast<std::uint64_t>(reader.components());
   const bool keepsType = options.method == PlaceMethod::Nearest;
-  requireMemory(result.values, result.values_size, "values", placeCount, components,
-    keepsType ? sizeOfType(reader.type()) : sizeof(double));
+  requireMemory(result.values, result.values_size, "values", placeCount,
+    components * (keepsType ? sizeOfType(reader.type()) : sizeof(double)));
   ProbedArray probed;
   probed.components = reader.components();
   probed.valueError = isFloatingPoint(reader.type()) ? 0.0 : roundingError;
@@ -146,8 +146,8 @@ ProbedArray probedArray(const isopoint_array& array, const isopoint_probe_result
   }
   if (result.gradients)
   {
-    requireMemory(result.gradients, result.gradients_size, "gradients", placeCount, 3 * components,
-      sizeof(double));
+    requireMemory(result.gradients, result.gradients_size, "gradients", placeCount,
+      3 * components * sizeof(double));
   }
   probed.values = static_cast<double*>(result.values);
   probed.gradients = result.gradients;

@@ -223,8 +223,8 @@ void isopoint_surface::interpolate(
   const isopoint::ArrayReader reader(ofSamples, "the samples");
   reader.require(this->SampleCount, reader.components());
   const auto components = static_cast<std::size_t>(reader.components());
-  isopoint::requireMemory(result, size, "the result", this->Isovalues.size(), components,
-    isopoint::sizeOfType(reader.type()));
+  isopoint::requireMemory(result, size, "the result", this->Isovalues.size(),
+    components * isopoint::sizeOfType(reader.type()));
   isopoint::withType(reader.type(),
     [&](auto type)
     {
@@ -345,8 +345,8 @@ void isopoint_surface::averageAtSplatVertices(
   reader.require(this->pointCount(), reader.components());
   reader.requireFloatingPoint();
   const auto components = static_cast<std::size_t>(reader.components());
-  isopoint::requireMemory(result, size, "the result", this->Splats.mesh.vertices.size(), components,
-    isopoint::sizeOfType(reader.type()));
+  isopoint::requireMemory(result, size, "the result", this->Splats.mesh.vertices.size(),
+    components * isopoint::sizeOfType(reader.type()));
   const auto average = [&](auto type)
   {
     using T = decltype(type);

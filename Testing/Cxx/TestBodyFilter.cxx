@@ -148,5 +148,5 @@ TEST(BodyFilter, MessagesNameTheCause)
   move(cloud->GetPoints(), [](const Vector&) { return Vector{ notANumber, 0.0, 0.0 }; });
   cloud->GetPoints()->Modified();
   expectEmpty(updated(filter));
-  expectContains(warnings->last(), "There is no body. Mend the positions.");
+  expectContains(warnings->last(), "There is no surface. Mend the positions.");
 }

@@ -1312,8 +1312,8 @@ TEST(Library, InvalidProbesAreErrors)
   const auto expectTooSmall = [&](const isopoint_probe_result& to, const std::string& text)
   { expectInvalid(probe(array, places, to, usual), text, ISOPOINT_INVALID_ARRAY); };
   std::vector<double> gradients(299);
-  expectTooSmall({ nullptr, 800, nullptr, 0 },
-    "The memory for values has 0 bytes. Pass memory for 100 tuples of 1 numbers of 8 bytes.");
+  expectTooSmall(
+    { nullptr, 800, nullptr, 0 }, "The memory for values has 0 bytes. Pass 100 times 8 bytes.");
   expectTooSmall({ numbers.data(), 799, nullptr, 0 }, "The memory for values has 799 bytes");
   expectTooSmall(resultIn(numbers, gradients), "The memory for gradients has 2392 bytes");
   std::uint8_t flag = 0;
@@ -1404,7 +1404,7 @@ TEST(Library, KeptSplatsYieldTheSameMesh)
 
   isopoint_surface* created = nullptr;
   expectInvalid(average(again, normals, means = { 0.0f }),
-    "The memory for the result has 4 bytes. Pass memory for", ISOPOINT_INVALID_ARRAY);
+    "The memory for the result has 4 bytes. Pass ", ISOPOINT_INVALID_ARRAY);
   std::vector<double> values;
   const isopoint_array none = arrayOf(values, ISOPOINT_DOUBLE, 1);
   expectInvalid(interpolate(again, none, values), "made by isopoint_create_surface()");
