@@ -430,6 +430,8 @@ class Filters(FilterTests):
         with_ghosts(data, POINTS, [0, 0, 0, DUPLICATE_POINT] + 496 * [0])
         texts = self.texts_of(configured(self.kinds[0], data, [0.7]), "MessageEvent")
         self.assert_one(texts, "3 of 500", "2 not finite", "1 excluded")
+        hidden = with_ghosts(cloud(500), POINTS, [HIDDEN_POINT])
+        self.assert_one(self.texts_of(configured(self.kinds[0], hidden, [0.7])), "All samples are excluded.")
         other = cloud_of(positions_in(cloud(30)))
         for by_block in (False, True):
             texts = self.texts_of(configured(
