@@ -45,8 +45,8 @@ positions, values = image(parser.parse_args().nodes)
 times: list = []
 cancels = library.Cancels(ask)
 extractor = library.Extractor(library.create_extractor())
-library.run(library.set_threads, extractor, 1)
-library.run(library.set_callbacks, extractor, library.Progress(), cancels, None)
+library.run(library.set_extractor_threads, extractor, 1)
+library.run(library.set_extractor_callbacks, extractor, library.Progress(), cancels, None)
 print("| step | processor s | questions | longest, ms |\n|---|---|---|---|")
 measure("load", lambda: library.run(library.set_samples, extractor, positions, values, None))
 for name, chosen in (("points", dict(triangles=0)), ("triangles", dict(triangles=1)),
