@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <random>
 #include <vector>
@@ -17,21 +17,22 @@ namespace
 
 constexpr std::size_t count = 50; // few: each allocation fails once
 
-/// An extractor of samples, and what it gives.
+/// An extractor of samples, and what it gives. Its calls allocate nothing themselves.
 struct Extraction
 {
-  std::vector<double> positions;
-  std::vector<double> values;
-  std::vector<double> probed;
-  isopoint_options options;
+  std::array<double, 3 * count> positions{};
+  std::array<double, count> values{};
+  std::array<double, count> probed{};
+  isopoint_array places{ positions.data(), ISOPOINT_DOUBLE, 3, count, 0, 0 };
+  isopoint_array numbers{ values.data(), ISOPOINT_DOUBLE, 1, count, 0, 0 };
+  isopoint_options options{};
   std::unique_ptr<isopoint_extractor, decltype(&isopoint_destroy_extractor)> extractor{
     isopoint_create_extractor(), isopoint_destroy_extractor
   };
+  std::unique_ptr<isopoint_surface, decltype(&isopoint_destroy_surface)> surface{ nullptr,
+    isopoint_destroy_surface };
 
-  Extraction()
-    : positions(3 * count)
-    , values(count)
-    , probed(count)
+  explicit Extraction(bool triangles)
   {
     std::mt19937 random(1);
     for (std::size_t i = 0; i < this->positions.size(); ++i)
@@ -40,68 +41,61 @@ struct Extraction
       this->values[i / 3] += this->positions[i] * this->positions[i];
     }
     isopoint_initialize_options(&this->options, sizeof(this->options));
+    this->options.triangles = triangles ? 1 : 0;
     EXPECT_EQ(isopoint_set_extractor_threads(this->extractor.get(), 1), ISOPOINT_OK);
   }
 
   isopoint_status load()
   {
-    const isopoint_array places{ this->positions.data(), ISOPOINT_DOUBLE, 3, count, 0, 0 };
-    const isopoint_array numbers{ this->values.data(), ISOPOINT_DOUBLE, 1, count, 0, 0 };
-    return isopoint_set_samples(this->extractor.get(), &places, &numbers, nullptr);
+    return isopoint_set_samples(this->extractor.get(), &this->places, &this->numbers, nullptr);
   }
 
-  isopoint_status extract(std::vector<double>* isovalues = nullptr)
+  isopoint_status extract()
   {
     const double isovalue = 0.6;
-    isopoint_surface* surface = nullptr;
+    isopoint_surface* made = nullptr;
     const isopoint_status status =
-      isopoint_extract(this->extractor.get(), &isovalue, 1, &this->options, &surface);
-    isopoint_array points;
-    if (surface && isovalues && isopoint_get_array(surface, 0, &points) == ISOPOINT_OK)
-    {
-      const auto* const numbers = static_cast<const double*>(points.data);
-      isovalues->assign(numbers, numbers + 3 * points.count);
-    }
-    isopoint_destroy_surface(surface);
+      isopoint_extract(this->extractor.get(), &isovalue, 1, &this->options, &made);
+    this->surface.reset(made);
     return status;
   }
 
   isopoint_status probe()
   {
-    const isopoint_array places{ this->positions.data(), ISOPOINT_DOUBLE, 3, count, 0, 0 };
-    const isopoint_array numbers{ this->values.data(), ISOPOINT_DOUBLE, 1, count, 0, 0 };
-    const isopoint_probe_result result{ this->probed.data(), 8 * count, nullptr, 0 };
+    const isopoint_probe_result result{ this->probed.data(), sizeof(this->probed), nullptr, 0 };
     return isopoint_probe(
-      this->extractor.get(), &places, &numbers, 1, nullptr, &result, nullptr, 0);
+      this->extractor.get(), &this->places, &this->numbers, 1, nullptr, &result, nullptr, 0);
   }
 
-  /// What a loaded extractor gives.
+  /// What the extractor gives after another start.
   std::vector<double> results()
   {
-    std::vector<double> all;
-    EXPECT_EQ(this->extract(&all), ISOPOINT_OK);
+    isopoint_array points{};
+    EXPECT_EQ(this->load(), ISOPOINT_OK);
     EXPECT_EQ(this->probe(), ISOPOINT_OK);
+    EXPECT_EQ(this->extract(), ISOPOINT_OK);
+    EXPECT_EQ(isopoint_get_array(this->surface.get(), ISOPOINT_ARRAY_POINTS, &points), ISOPOINT_OK);
+    const auto* const coordinates = static_cast<const double*>(points.data);
+    std::vector<double> all(coordinates, coordinates + 3 * points.count);
     all.insert(all.end(), this->probed.begin(), this->probed.end());
     return all;
   }
 };
 
-/// Makes the n-th allocation of a call on a new extractor fail, for each n.
-/// @param prepare what comes before the call
-void failEach(bool triangles, const std::function<isopoint_status(Extraction&)>& prepare,
-  const std::function<isopoint_status(Extraction&)>& call)
+/// Makes the n-th allocation of a call fail, for each n, and with each second n all later ones.
+void failEach(bool triangles, bool isLoaded, isopoint_status (Extraction::*call)())
 {
-  std::vector<double> expected;
+  const std::vector<double> expected = Extraction(triangles).results();
+  EXPECT_GT(expected.size(), count + 30);
   int failures = 0;
   bool failed = true;
-  for (long n = 0; failed; ++n) // 0: none
+  for (long n = 1; failed; ++n)
   {
     SCOPED_TRACE(testing::Message() << "allocation " << n);
-    Extraction extraction;
-    extraction.options.triangles = triangles ? 1 : 0;
-    ASSERT_EQ(prepare(extraction), ISOPOINT_OK);
+    Extraction extraction(triangles);
+    ASSERT_TRUE(!isLoaded || extraction.load() == ISOPOINT_OK);
     failingallocator::failAt(n, n % 2 == 0, 1);
-    const isopoint_status status = call(extraction);
+    const isopoint_status status = (extraction.*call)();
     failed = failingallocator::stop() >= n;
     if (status != ISOPOINT_OK)
     {
@@ -110,44 +104,25 @@ void failEach(bool triangles, const std::function<isopoint_status(Extraction&)>&
       ASSERT_STREQ(isopoint_get_error(),
         "Out of memory. Free memory, or reduce the number of samples or of places.");
     }
-    ASSERT_EQ(extraction.load(), ISOPOINT_OK);
-    const std::vector<double> results = extraction.results();
-    expected = expected.empty() ? results : expected;
-    ASSERT_EQ(results, expected);
+    ASSERT_EQ(extraction.results(), expected);
   }
-  EXPECT_GT(expected.size(), count);
   EXPECT_GT(failures, 5);
-}
-
-isopoint_status nothing(Extraction&)
-{
-  return ISOPOINT_OK;
-}
-
-isopoint_status load(Extraction& extraction)
-{
-  return extraction.load();
-}
-
-isopoint_status extract(Extraction& extraction)
-{
-  return extraction.extract();
 }
 
 } // namespace
 
 TEST(LibraryOutOfMemory, OfSamples)
 {
-  failEach(false, nothing, load);
+  failEach(false, false, &Extraction::load);
 }
 
 TEST(LibraryOutOfMemory, OfSurfaces)
 {
-  failEach(false, load, extract);
-  failEach(true, load, extract);
+  failEach(false, true, &Extraction::extract);
+  failEach(true, true, &Extraction::extract);
 }
 
 TEST(LibraryOutOfMemory, OfPlaces)
 {
-  failEach(false, load, [](Extraction& extraction) { return extraction.probe(); });
+  failEach(false, true, &Extraction::probe);
 }
