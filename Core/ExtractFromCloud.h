@@ -57,7 +57,7 @@ ExtractedIsosurface partOnRank(const Execution& execution, SharedRanks<TSample>&
     [&](std::size_t vertex)
     {
       const EdgeLeaves& leaves = all.surface.leaves[all.surface.edgeBegin(vertex)];
-      return ranks.ownerOf(firstPlaceOf(tree, leaves));
+      return ranks.ownerOf(lowerTreeIndex(tree, leaves));
     });
   const auto rank = static_cast<std::size_t>(ranks.processes().rank());
   OwnedTriangles owned = ownedTriangles(execution, all.triangles, vertexRanks, rank, rings);

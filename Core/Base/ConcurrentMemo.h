@@ -26,18 +26,18 @@ public:
   T at(std::size_t index, const Compute& compute)
   {
     Block& block = this->blockAt(index / blockSize);
-    const std::size_t place = index % blockSize;
-    if (!block.isKnown[place].load(std::memory_order_acquire))
+    const std::size_t slot = index % blockSize;
+    if (!block.isKnown[slot].load(std::memory_order_acquire))
     {
       const T value = compute();
       const std::lock_guard<std::mutex> lock(this->Mutex);
-      if (!block.isKnown[place].load(std::memory_order_relaxed))
+      if (!block.isKnown[slot].load(std::memory_order_relaxed))
       {
-        block.values[place] = value;
-        block.isKnown[place].store(true, std::memory_order_release);
+        block.values[slot] = value;
+        block.isKnown[slot].store(true, std::memory_order_release);
       }
     }
-    return block.values[place];
+    return block.values[slot];
   }
 
 private:
@@ -70,24 +70,24 @@ private:
   Block& makeBlock(std::size_t row, std::size_t size, std::size_t number)
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
-    if (!this->OwnRows[row])
+    if (!this->RowMemory[row])
     {
-      this->OwnRows[row] = std::make_unique<Row>(size);
-      this->Rows[row].store(this->OwnRows[row].get(), std::memory_order_release);
+      this->RowMemory[row] = std::make_unique<Row>(size);
+      this->Rows[row].store(this->RowMemory[row].get(), std::memory_order_release);
     }
-    std::atomic<Block*>& place = (*this->OwnRows[row])[number];
-    if (!place.load(std::memory_order_relaxed))
+    std::atomic<Block*>& slot = (*this->RowMemory[row])[number];
+    if (!slot.load(std::memory_order_relaxed))
     {
-      this->OwnBlocks.push_back(std::make_unique<Block>());
-      place.store(this->OwnBlocks.back().get(), std::memory_order_release);
+      this->BlockMemory.push_back(std::make_unique<Block>());
+      slot.store(this->BlockMemory.back().get(), std::memory_order_release);
     }
-    return *place.load(std::memory_order_relaxed);
+    return *slot.load(std::memory_order_relaxed);
   }
 
   std::mutex Mutex; // for changes
   std::array<std::atomic<Row*>, rowCount> Rows{};
-  std::array<std::unique_ptr<Row>, rowCount> OwnRows;
-  std::vector<std::unique_ptr<Block>> OwnBlocks;
+  std::array<std::unique_ptr<Row>, rowCount> RowMemory;
+  std::vector<std::unique_ptr<Block>> BlockMemory;
 };
 
 } // namespace isopoint

@@ -181,63 +181,41 @@ struct ItemBatches
   std::size_t grain;
 };
 
-/// A pool of workers, such as scratch memory: one is made when all others are in use, and kept.
-template <class TWorker>
-class WorkerPool
-{
-public:
-  /// @param makeWorker() makes a worker, from any thread
-  /// @param work(worker) has the worker to itself; the worker is dropped if this throws
-  template <class MakeWorker, class Work>
-  void use(const MakeWorker& makeWorker, const Work& work)
-  {
-    std::unique_ptr<TWorker> worker = this->takeFree();
-    if (!worker)
-    {
-      worker.reset(new TWorker(makeWorker()));
-    }
-    work(*worker);
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    this->Free.push_back(std::move(worker));
-  }
-
-private:
-  std::unique_ptr<TWorker> takeFree()
-  {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    if (this->Free.empty())
-    {
-      return nullptr;
-    }
-    std::unique_ptr<TWorker> worker = std::move(this->Free.back());
-    this->Free.pop_back();
-    return worker;
-  }
-
-  std::mutex Mutex;
-  std::vector<std::unique_ptr<TWorker>> Free;
-};
-
-/// Calls work(worker, item) for the items 0 .. batches.count - 1, with a worker per thread.
+/// Calls work(worker, item) for the items 0 .. batches.count - 1. A worker, such as scratch memory,
+/// serves one thread at a time; one that throws is dropped.
+/// @param makeWorker() called from any thread, when all workers are in use
 /// @throws Aborted, and whatever `makeWorker` and `work` throw
 template <class MakeWorker, class Work>
 void forEachItem(
   const Execution& execution, const ItemBatches& batches, const MakeWorker& makeWorker,
   const Work& work, const BatchDone& batchDone = [](double) {})
 {
-  WorkerPool<std::decay_t<decltype(makeWorker())>> workers;
+  using Worker = std::decay_t<decltype(makeWorker())>;
+  std::vector<std::unique_ptr<Worker>> idle;
+  std::mutex mutex;
   forBatches(
     execution, batches.count, batches.batchPerThread, batches.grain,
     [&](std::size_t begin, std::size_t end)
     {
-      workers.use(makeWorker,
-        [&](auto& worker)
+      std::unique_ptr<Worker> worker;
+      {
+        const std::lock_guard<std::mutex> lock(mutex);
+        if (!idle.empty())
         {
-          for (std::size_t i = begin; i < end; ++i)
-          {
-            work(worker, i);
-          }
-        });
+          worker = std::move(idle.back());
+          idle.pop_back();
+        }
+      }
+      if (!worker)
+      {
+        worker.reset(new Worker(makeWorker()));
+      }
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        work(*worker, i);
+      }
+      const std::lock_guard<std::mutex> lock(mutex);
+      idle.push_back(std::move(worker));
     },
     batchDone);
 }

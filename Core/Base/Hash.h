@@ -43,11 +43,11 @@ inline std::uint64_t hashOf(const std::uint64_t* numbers, std::size_t count)
 }
 
 /// A hash of a cell in one of several grids.
-/// @param place integers, which may exceed the range of integer types
-inline std::uint64_t hashOfCell(int grid, const std::array<double, 3>& place)
+/// @param cell integers, which may exceed the range of integer types
+inline std::uint64_t hashOfCell(int grid, const std::array<double, 3>& cell)
 {
   auto hash = static_cast<std::uint64_t>(grid);
-  for (const double coordinate : place)
+  for (const double coordinate : cell)
   {
     hash = extendedHash(hash, bitsOf(coordinate + 0.0)); // -0 becomes 0
   }

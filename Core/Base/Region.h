@@ -45,25 +45,26 @@ inline Region united(const Region& a, const Region& b)
   return box;
 }
 
-/// How far a place is outside a box, along each axis.
-inline Vector gapTo(const Region& box, const Vector& place)
+/// How far a position is outside a box, along each axis.
+inline Vector gapTo(const Region& box, const Vector& position)
 {
   Vector gap{};
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    gap[axis] = std::max({ box.lower[axis] - place[axis], place[axis] - box.upper[axis], 0.0 });
+    gap[axis] =
+      std::max({ box.lower[axis] - position[axis], position[axis] - box.upper[axis], 0.0 });
   }
   return gap;
 }
 
-/// The part of a box within a radius of a place, along each axis, with a margin for rounding.
-inline Region partWithin(Region box, const Vector& place, double radius)
+/// The part of a box within a radius of a position, along each axis, with a margin for rounding.
+inline Region partWithin(Region box, const Vector& position, double radius)
 {
   const double reach = 1.001 * radius;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    box.lower[axis] = std::max(box.lower[axis], place[axis] - reach);
-    box.upper[axis] = std::min(box.upper[axis], place[axis] + reach);
+    box.lower[axis] = std::max(box.lower[axis], position[axis] - reach);
+    box.upper[axis] = std::min(box.upper[axis], position[axis] + reach);
   }
   return box;
 }

@@ -207,13 +207,13 @@ private:
     }
   }
 
-  /// Whether the strong gap criterion rejects the edge; mayDrop() quickly rules out most.
+  /// Whether the strong gap criterion rejects the edge; mayReject() quickly rules out most.
   bool isGapSeed(const Path& leaf, const TSample& own, const TSample& other) const
   {
     const GapCriterion strong = GapCriterion::strong();
-    return strong.mayDrop(
+    return strong.mayReject(
              this->Tree, leaf, own, offsetBetween(positionOf(own), positionOf(other)).length) &&
-           strong.drops(this->Tree, this->Context.bounds, own, other);
+           strong.rejects(this->Tree, this->Context.bounds, own, other);
   }
 
   struct End

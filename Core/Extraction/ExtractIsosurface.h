@@ -3,6 +3,7 @@
 
 #include "Core/Base/Execution.h"
 #include "Core/Base/Lists.h"
+#include "Core/Base/Sorting.h"
 #include "Core/Base/Vector.h"
 #include "Core/Extraction/EdgeFinder.h"
 #include "Core/Extraction/ExtractionContext.h"
@@ -195,8 +196,8 @@ std::vector<char> edgesInGaps(const Execution& execution, const SampleTree<TSamp
         itemsThat(execution, ranks, some.size(),
           [&](std::size_t i)
           {
-            return GapCriterion::weak().drops(tree, bounds, tree.sampleOf(edges[some[i]].firstLeaf),
-              tree.sampleOf(edges[some[i]].secondLeaf));
+            return GapCriterion::weak().rejects(tree, bounds,
+              tree.sampleOf(edges[some[i]].firstLeaf), tree.sampleOf(edges[some[i]].secondLeaf));
           }));
       ranks.uniteEdges(edges, weak);
       return weak;
@@ -216,7 +217,7 @@ std::size_t dropGapEdges(const Execution& execution, const SampleTree<TSample>& 
     [&](std::size_t i)
     {
       const EdgeLeaves leaves{ edges[i].firstLeaf, edges[i].secondLeaf };
-      count += isInGap[i] && tree.isOwn(firstPlaceOf(tree, leaves)) ? 1 : 0;
+      count += isInGap[i] && tree.isOwn(lowerTreeIndex(tree, leaves)) ? 1 : 0;
     });
   dropMarked(execution, isInGap, edges);
   return count;
@@ -269,9 +270,9 @@ Isosurface placeIsopoints(const Execution& execution, ExtractionContext<TSample>
       for (std::size_t k = first; k < last; ++k)
       {
         const CrossingEdge<TSample>& edge = isopoints.edges[k];
-        const Vector place = last == first + 1 ? surface.positions[i] : crossingOf(edge) + move;
+        const Vector crossing = last == first + 1 ? surface.positions[i] : crossingOf(edge) + move;
         const double parameter = followsFit ? nearestParameter(positionAt(edge.firstLeaf),
-                                                positionAt(edge.secondLeaf), place)
+                                                positionAt(edge.secondLeaf), crossing)
                                             : edge.crossing;
         surface.edges[k] = { { edge.first, edge.second }, parameter };
         surface.leaves[k] = { edge.firstLeaf, edge.secondLeaf };

@@ -85,7 +85,7 @@ public:
         const TSample& own = this->Tree.samples[this->Tree.nodes[this->Leaves[end]].begin];
         const double length = offsetBetween(positionOf(own), positionOf(sample)).length;
         return width > 0.0 && GapCriterion::strong(std::max(1.0, length / width))
-                                .drops(this->Tree, this->Bounds, own, sample);
+                                .rejects(this->Tree, this->Bounds, own, sample);
       });
   }
 

@@ -3,6 +3,7 @@
 
 #include "Core/Base/Execution.h"
 #include "Core/Base/Lists.h"
+#include "Core/Base/Sorting.h"
 #include "Core/Base/Vector.h"
 #include "Core/Fit/LocalFit.h"
 #include "Core/Neighbors/AngleCriterion.h"
@@ -91,7 +92,8 @@ struct IsosurfaceRequest
 /// The edge of an isopoint, between samples on opposite sides of the isovalue.
 struct IsopointEdge : SampleEdge
 {
-  /// Nearest place on the edge to the isopoint, for its attributes: 0 at `first`, 1 at `second`.
+  /// The point on the edge nearest to the isopoint, for its attributes: 0 at `first`, 1 at
+  /// `second`.
   double parameter;
 };
 
@@ -102,9 +104,9 @@ struct EdgeLeaves
   std::size_t second;
 };
 
-/// The place in tree order of the edge's first leaf. The rank that owns it owns the isopoint.
+/// The lower tree index of the edge's leaves. The rank that owns it owns the isopoint.
 template <class TSample>
-std::size_t firstPlaceOf(const SampleTree<TSample>& tree, const EdgeLeaves& leaves)
+std::size_t lowerTreeIndex(const SampleTree<TSample>& tree, const EdgeLeaves& leaves)
 {
   return static_cast<std::size_t>(
     std::min(tree.nodes[leaves.first].begin, tree.nodes[leaves.second].begin));
@@ -218,13 +220,13 @@ public:
   /// @param attributeAt(id) the attribute of one sample, as a double
   CoincidentAttribute(const Isosurface& surface, const AttributeAt& attributeAt)
     : Surface(surface)
-    , Own(attributeAt)
+    , AttributeOf(attributeAt)
   {
     this->Means.reserve(surface.coincident.size());
     for (const CoincidentSamples& group : surface.coincident)
     {
       this->Means.push_back(meanOf(group.ids.size(),
-        [&](std::size_t i) { return static_cast<double>(this->Own(group.ids[i])); }));
+        [&](std::size_t i) { return static_cast<double>(this->AttributeOf(group.ids[i])); }));
     }
   }
 
@@ -233,12 +235,12 @@ public:
   {
     const CoincidentSamples* const group = this->Surface.coincidentAt(id);
     return group ? this->Means[static_cast<std::size_t>(group - this->Surface.coincident.data())]
-                 : this->Own(id);
+                 : this->AttributeOf(id);
   }
 
 private:
   const Isosurface& Surface;
-  AttributeAt Own;
+  AttributeAt AttributeOf;
   std::vector<double> Means; // of the surface's groups
 };
 

@@ -50,7 +50,7 @@ public:
   NarrowBand(SampleTree<TSample>& tree, double isovalue, const Execution& execution)
     : Tree(tree)
     , Isovalue(isovalue)
-    , Exec(execution)
+    , Run(execution)
     , ListBudget(tree.ownCount())
   {
   }
@@ -80,10 +80,10 @@ public:
       const double middle = 0.5 * (depth + bottom);
       if (!isDone)
       {
-        this->splitFront(partOf(this->Exec, shareAt(depth), shareAt(middle)), front, bottom);
+        this->splitFront(partOf(this->Run, shareAt(depth), shareAt(middle)), front, bottom);
         isDone = this->finishIfFew(front, depth, bottom);
       }
-      this->mark(partOf(this->Exec, shareAt(middle), shareAt(bottom)), ranks,
+      this->mark(partOf(this->Run, shareAt(middle), shareAt(bottom)), ranks,
         isDone ? std::vector<BandNode>() : front, bottom);
       if (!isDone)
       {
@@ -91,7 +91,7 @@ public:
         isDone = front.empty();
       }
       depth = bottom;
-      throwIfAborted(this->Exec);
+      throwIfAborted(this->Run);
     }
     std::vector<BinaryIndex> crossing;
     for (const BandNode& node : front)
@@ -125,7 +125,7 @@ private:
       {
         tops.push_back(node.nodeIndex);
       }
-      splitCompletely(this->Exec, this->Tree, tops);
+      splitCompletely(this->Run, this->Tree, tops);
     }
     return true;
   }
@@ -182,8 +182,8 @@ private:
     }
     // All threads split each node together while there are too few nodes for all threads.
     constexpr std::size_t togetherCount = std::size_t{ 1 } << 16;
-    const std::size_t fewNodes = 4 * this->Exec.threads;
-    const std::size_t batchSamples = (std::size_t{ 1 } << 17) * this->Exec.threads;
+    const std::size_t fewNodes = 4 * this->Run.threads;
+    const std::size_t batchSamples = (std::size_t{ 1 } << 17) * this->Run.threads;
 
     const auto shareAt = [&front](std::size_t node)
     { return static_cast<double>(node) / static_cast<double>(front.size()); };
@@ -215,7 +215,7 @@ private:
       }
       this->splitBatch(partOf(execution, share, shareAt(begin)), batch,
         batch.size() < fewNodes ? togetherCount : samples + 1);
-      throwIfAborted(this->Exec);
+      throwIfAborted(this->Run);
     }
   }
 
@@ -238,9 +238,8 @@ private:
       splitter.splitTogether(partOf(execution, shareAt(i), shareAt(i + 1)), node,
         pathTo(this->Tree, task.node.index).region, task.levels);
     }
-    const std::size_t grain =
-      std::min<std::size_t>(64, alone.size() / (8 * this->Exec.threads) + 1);
-    forRanges(this->Exec, alone.size(), grain,
+    const std::size_t grain = std::min<std::size_t>(64, alone.size() / (8 * this->Run.threads) + 1);
+    forRanges(this->Run, alone.size(), grain,
       [&](std::size_t begin, std::size_t end)
       {
         TreeletSplitter<TSample> splitter(this->Tree, 0);
@@ -260,7 +259,7 @@ private:
     const std::vector<BandNode>& front, int levels, std::size_t limit) const
   {
     std::atomic<std::size_t> samples{ 0 };
-    forBatches(this->Exec, front.size(), searchBatch, searchGrain,
+    forBatches(this->Run, front.size(), searchBatch, searchGrain,
       [&](std::size_t begin, std::size_t end)
       {
         std::size_t found = 0;
@@ -416,7 +415,7 @@ private:
   std::vector<BandNode> collectBelow(
     const std::vector<BandNode>& front, int depth, const Collect& collect)
   {
-    return collected<BandNode>(this->Exec, { front.size(), searchBatch, searchGrain },
+    return collected<BandNode>(this->Run, { front.size(), searchBatch, searchGrain },
       [&](std::size_t begin, std::size_t end, std::vector<BandNode>& found)
       {
         Path path = pathToRoot(this->Tree);
@@ -440,7 +439,7 @@ private:
 
   SampleTree<TSample>& Tree;
   const double Isovalue;
-  const Execution& Exec;
+  const Execution& Run;
   NeighborListBudget ListBudget;
   NodeMarks Marks; // of nodes down to the current depth
   std::mutex DeferredMutex;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Core/Base/Execution.h"
-#include "Core/Base/Lists.h"
+#include "Core/Base/Sorting.h"
 #include "Core/Base/Vector.h"
 #include "Core/Extraction/ExtractionContext.h"
 #include "Core/Extraction/Isosurface.h"
@@ -88,13 +88,13 @@ std::vector<std::size_t> orderInTree(const Execution& execution, const SampleTre
 {
   const auto beginOf = [&tree](typename TSample::Id leaf) -> std::uint64_t
   { return tree.nodes[static_cast<std::size_t>(leaf)].begin; };
-  using Places = std::pair<std::uint64_t, std::uint64_t>; // of both ends, ascending
+  using TreeIndices = std::pair<std::uint64_t, std::uint64_t>; // of both ends, ascending
   return orderByKeys(
     execution, edges.size(), tree.samples.size(),
-    [&](std::size_t i) -> Places {
+    [&](std::size_t i) -> TreeIndices {
       return std::minmax({ beginOf(edges[i].firstLeaf), beginOf(edges[i].secondLeaf) });
     },
-    [](const Places& places) { return places.first; });
+    [](const TreeIndices& indices) { return indices.first; });
 }
 
 /// Fits to the samples around some edges (see SampleGatherer and LocalFitter). Fastest in tree

@@ -37,7 +37,7 @@ public:
     this->Samples.clear();
     this->IsWide = false;
     this->AllRings.makeRoom();
-    if (this->beginOf(secondLeaf) < this->beginOf(firstLeaf))
+    if (this->treeIndexOf(secondLeaf) < this->treeIndexOf(firstLeaf))
     {
       std::swap(firstLeaf, secondLeaf);
     }
@@ -123,8 +123,7 @@ private:
     }
   }
 
-  /// The place of a leaf in tree order.
-  std::size_t beginOf(Id leaf) const
+  std::size_t treeIndexOf(Id leaf) const
   {
     return this->Tree.nodes[static_cast<std::size_t>(leaf)].begin;
   }

@@ -76,7 +76,7 @@ public:
     const SampleTree<TSample>& tree, const NeighborhoodCache<typename TSample::Id>& /*known*/,
     Isosurface whole, bool /*hasFits*/)
     : AllPoints(whole.size())
-    , Exec(execution)
+    , Run(execution)
     , Tree(tree)
     , Whole(std::move(whole))
   {
@@ -89,8 +89,8 @@ public:
     {
       return;
     }
-    this->Order = inOrderOfLeaves(this->Exec, this->Whole.leaves, this->Tree.nodes.size());
-    this->Ordered = chosenIsopoints(this->Exec, this->Whole, this->Order);
+    this->Order = inOrderOfLeaves(this->Run, this->Whole.leaves, this->Tree.nodes.size());
+    this->Ordered = chosenIsopoints(this->Run, this->Whole, this->Order);
   }
 
   const Isosurface& surface() const { return this->Ordered; }
@@ -99,14 +99,14 @@ public:
 
   std::vector<std::size_t> owned() const
   {
-    return placesIn(this->Exec, this->Order, this->Order.size());
+    return inverseOf(this->Run, this->Order, this->Order.size());
   }
   std::vector<std::size_t> ghosts() const { return {}; }
 
   Isosurface takeOwned() { return std::move(this->Whole); }
 
 private:
-  const Execution& Exec;
+  const Execution& Run;
   const SampleTree<TSample>& Tree;
   Isosurface Whole;
   std::vector<std::size_t> Order;

@@ -55,13 +55,13 @@ public:
   /// Complexity: O(depth + nodes within length / factor of an end that may have samples in its
   /// cone); a partial tree's nodes are judged by their regions
   template <class TSample>
-  bool drops(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& own,
+  bool rejects(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& own,
     const TSample& other) const
   {
     return this->isDense(tree, bounds, own, other) && this->isDense(tree, bounds, other, own);
   }
 
-  /// Whether an end is dense; see drops().
+  /// Whether an end is dense; see rejects().
   template <class TSample>
   bool isDense(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& end,
     const TSample& other) const
@@ -75,7 +75,7 @@ public:
 
   /// A quick test: if false, no edge of the leaf's sample up to this length is rejected.
   template <class TSample>
-  bool mayDrop(
+  bool mayReject(
     const SampleTree<TSample>& tree, const Path& leaf, const TSample& own, double length) const
   {
     const auto isNear = [&](const TSample& sample)
@@ -216,9 +216,9 @@ private:
 class RimCriterion
 {
 public:
-  /// As GapCriterion::drops().
+  /// As GapCriterion::rejects().
   template <class TSample>
-  bool drops(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& own,
+  bool rejects(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& own,
     const TSample& other) const
   {
     const bool isOwnDense = this->Weak.isDense(tree, bounds, own, other);

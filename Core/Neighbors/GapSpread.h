@@ -3,6 +3,7 @@
 
 #include "Core/Base/Execution.h"
 #include "Core/Base/Lists.h"
+#include "Core/Base/Sorting.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -26,7 +27,7 @@ class GapSpread
 {
 public:
   GapSpread(const Execution& execution, TRanks& ranks, TElements& elements)
-    : Exec(execution)
+    : Run(execution)
     , Ranks(ranks)
     , Elements(elements)
   {
@@ -40,7 +41,7 @@ public:
   template <class WeakAmong>
   void spread(std::vector<std::size_t> front, const WeakAmong& weakAmong)
   {
-    forEachIndex(this->Exec, front.size(), [&](std::size_t i) { this->IsReached[front[i]] = 1; });
+    forEachIndex(this->Run, front.size(), [&](std::size_t i) { this->IsReached[front[i]] = 1; });
     while (this->Ranks.isAny(!front.empty()))
     {
       front = this->next(weakAmong(front));
@@ -52,13 +53,13 @@ public:
   {
     std::vector<std::size_t> fragments;
     // Everything next to a gap was reached.
-    std::vector<std::size_t> candidates = itemsThat(this->Exec, this->IsReached.size(),
+    std::vector<std::size_t> candidates = itemsThat(this->Run, this->IsReached.size(),
       [this](std::size_t element) {
         return this->IsReached[element] && !this->IsInGap[element] && this->isBesideGap(element);
       });
     while (!candidates.empty())
     {
-      throwIfAborted(this->Exec);
+      throwIfAborted(this->Run);
       std::vector<std::size_t> open; // whose pieces may be larger
       std::vector<std::size_t> ofOpen;
       for (const std::size_t element : candidates)
@@ -81,7 +82,7 @@ public:
       candidates.swap(open);
     }
     forEachInOrder(
-      this->Exec, fragments.size(), [&](std::size_t i) { this->IsInGap[fragments[i]] = 1; });
+      this->Run, fragments.size(), [&](std::size_t i) { this->IsInGap[fragments[i]] = 1; });
   }
 
   /// By element, whether it is marked. Moved out.
@@ -99,7 +100,7 @@ private:
 
   void connect(const std::vector<std::size_t>& elements)
   {
-    this->Elements.connect(this->Exec, elements);
+    this->Elements.connect(this->Run, elements);
     this->resize();
   }
 
@@ -108,7 +109,7 @@ private:
   {
     this->connect(elements);
     std::vector<std::size_t> found;
-    forEachInOrder(this->Exec, elements.size(),
+    forEachInOrder(this->Run, elements.size(),
       [&](std::size_t i)
       {
         const std::size_t element = elements[i];
@@ -129,7 +130,7 @@ private:
           });
       });
     // The order of neighbors differs among ranks.
-    return sortedUnique(this->Exec, found, this->Elements.size());
+    return sortedUnique(this->Run, found, this->Elements.size());
   }
 
   bool isBesideGap(std::size_t element) const
@@ -159,7 +160,7 @@ private:
     return piece;
   }
 
-  const Execution& Exec;
+  const Execution& Run;
   TRanks& Ranks;
   TElements& Elements;
   std::vector<char> IsReached; // by element, whether it is a seed or connected with one in a gap

@@ -52,20 +52,21 @@ struct AnySample
   /// Whether a sample in a region may meet the condition.
   bool mayHoldIn(const Region& /*region*/) const { return true; }
 
-  /// Whether a sample meets the condition, given its offset from the place and its length.
+  /// Whether a sample meets the condition, given its offset from the center and the offset's
+  /// length.
   bool holdsAt(const Vector& /*offset*/, double /*length*/) const { return true; }
 };
 
-/// Finds the nearest sample to a place that meets a condition; the lowest id among equals.
+/// Finds the sample nearest to a position that meets a condition; the lowest id among equals.
 template <class TSample, class TCondition = AnySample>
 class NearestSampleSearch : public BallSearch<TSample>
 {
 public:
   /// @param reach search radius, finite
   /// @param condition has the functions of AnySample
-  NearestSampleSearch(const SampleTree<TSample>& tree, const Vector& place, double reach,
+  NearestSampleSearch(const SampleTree<TSample>& tree, const Vector& center, double reach,
     const TCondition& condition = {})
-    : BallSearch<TSample>(tree, place, reach)
+    : BallSearch<TSample>(tree, center, reach)
     , Condition(condition)
   {
   }

@@ -14,14 +14,15 @@
 namespace isopoint
 {
 
-/// A query for the support of samples in a direction from a place on a surface; see SampleExtents.
+/// A query for the support of samples in a direction from a position on a surface; see
+/// SampleExtents.
 struct ExtentQuery
 {
-  Vector place;
+  Vector position;
   Vector normal;    // of the surface there
   Vector direction; // orthogonal to the normal, of length 1
   double enough;    // the largest result of interest, positive
-  double reach;     // search radius around the place, at least `enough`, finite
+  double reach;     // search radius around the position, at least `enough`, finite
 };
 
 /// Samples within 45 degrees of the direction count, as far as rounding permits.
@@ -47,7 +48,7 @@ public:
   /// Includes the samples in a cube of side 2 * half, at the distance `ahead` along the direction.
   void search(double ahead, double half)
   {
-    const Vector center = this->Query.place + ahead * this->Query.direction;
+    const Vector center = this->Query.position + ahead * this->Query.direction;
     Region box;
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -103,11 +104,11 @@ private:
     double ahead = 0.0; // upper bounds, as are the next two
     double height = 0.0;
     double depth = 0.0;
-    Vector gap{}; // from the place to the box
+    Vector gap{}; // from the position to the box
     for (int axis = 0; axis < 3; ++axis)
     {
-      const double lower = box.lower[axis] - this->Query.place[axis];
-      const double upper = box.upper[axis] - this->Query.place[axis];
+      const double lower = box.lower[axis] - this->Query.position[axis];
+      const double upper = box.upper[axis] - this->Query.position[axis];
       if (!(lower <= upper))
       {
         return false;
@@ -132,7 +133,7 @@ private:
 
   void include(const Vector& position)
   {
-    const Vector offset = position - this->Query.place;
+    const Vector offset = position - this->Query.position;
     const double height = dot(offset, this->Query.normal);
     const double ahead = dot(offset, this->Query.direction);
     if (!this->isOfUse(height, ahead))
@@ -182,9 +183,9 @@ public:
     for (int axis = 0; axis < 3; ++axis)
     {
       const double direction = this->Query.direction[axis];
-      const double place = this->Query.place[axis];
+      const double position = this->Query.position[axis];
       ahead += std::max(
-        direction * (region.lower[axis] - place), direction * (region.upper[axis] - place));
+        direction * (region.lower[axis] - position), direction * (region.upper[axis] - position));
     }
     constexpr double slack = 0.999; // for rounding
     return ahead >= slack * this->Query.enough;
@@ -200,7 +201,8 @@ private:
   const ExtentQuery& Query;
 };
 
-/// The extents of a tree's samples around places on a surface. The tree must not change meanwhile.
+/// The extents of a tree's samples around positions on a surface. The tree must not change
+/// meanwhile.
 template <class TSample>
 class SampleExtents
 {
@@ -210,8 +212,8 @@ public:
   {
   }
 
-  /// The support in direction D: how far samples extend from a place along D. On each side of the
-  /// tangent plane, this is the largest component along D of the offsets to samples within 45
+  /// The support in direction D: how far samples extend from a position along D. On each side of
+  /// the tangent plane, this is the largest component along D of the offsets to samples within 45
   /// degrees of D and the search radius; the result is the smaller of the two, at most
   /// query.enough, and 0 without samples. Independent of tree refinement. Thread-safe.
   /// Complexity: O(log n) if samples extend far enough; else O(log n + nodes within the search
@@ -230,7 +232,7 @@ public:
     search.search(query.enough + 0.5 * beyond, share * beyond);
     if (!search.isEnough())
     {
-      // All samples that count lie in a ball of radius reach / sqrt 2 that touches the place.
+      // All samples that count lie in a ball of radius reach / sqrt 2 that touches the position.
       search.search(0.707 * query.reach, 0.72 * query.reach);
     }
     return search.extent();
@@ -241,15 +243,15 @@ public:
   const TSample* nearest(const ExtentQuery& query) const
   {
     return NearestSampleSearch<TSample, IsAhead>(
-      this->Tree, query.place, query.reach, IsAhead(query))
+      this->Tree, query.position, query.reach, IsAhead(query))
       .search();
   }
 
-  /// The nearest sample to a place, within a search radius; see NearestSampleSearch.
+  /// The nearest sample to a position, within a search radius; see NearestSampleSearch.
   /// @throws MissingNode
-  const TSample* nearestTo(const Vector& place, double reach) const
+  const TSample* nearestTo(const Vector& position, double reach) const
   {
-    return NearestSampleSearch<TSample>(this->Tree, place, reach).search();
+    return NearestSampleSearch<TSample>(this->Tree, position, reach).search();
   }
 
 private:

@@ -56,7 +56,7 @@ class SpacingSearch : public BallSearch<TSample>
 public:
   SpacingSearch(const SampleTree<TSample>& tree, const TSample& sample)
     : BallSearch<TSample>(tree, positionOf(sample), std::numeric_limits<double>::infinity())
-    , Own(sample)
+    , Sample(sample)
   {
   }
 
@@ -98,26 +98,26 @@ private:
   bool isKnown(const TSample& sample) const
   {
     const auto end = this->Nearest.begin() + static_cast<std::ptrdiff_t>(this->Count);
-    return haveOnePosition(sample, this->Own) ||
+    return haveOnePosition(sample, this->Sample) ||
            std::any_of(this->Nearest.begin(), end,
              [&](const Near& near) { return haveOnePosition(*near.sample, sample); });
   }
 
   void insert(const Near& near)
   {
-    std::size_t place = this->Count < wantedCount ? this->Count++ : wantedCount - 1;
-    for (; place > 0 && near.distance < this->Nearest[place - 1].distance; --place)
+    std::size_t i = this->Count < wantedCount ? this->Count++ : wantedCount - 1;
+    for (; i > 0 && near.distance < this->Nearest[i - 1].distance; --i)
     {
-      this->Nearest[place] = this->Nearest[place - 1];
+      this->Nearest[i] = this->Nearest[i - 1];
     }
-    this->Nearest[place] = near;
+    this->Nearest[i] = near;
     if (this->Count == wantedCount)
     {
       this->Radius = this->Nearest.back().distance;
     }
   }
 
-  const TSample& Own;
+  const TSample& Sample;
   std::array<Near, wantedCount> Nearest; // ascending
   std::size_t Count = 0;
 };

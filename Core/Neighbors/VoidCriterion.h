@@ -25,10 +25,10 @@ public:
   {
   }
 
-  /// As GapCriterion::drops().
+  /// As GapCriterion::rejects().
   /// @param spacing the greater spacing of the two ends
   template <class TSample>
-  bool drops(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& own,
+  bool rejects(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& own,
     const TSample& other, double spacing) const
   {
     constexpr double slack = 1.001; // for rounding
@@ -37,7 +37,7 @@ public:
     // The other criterion takes long for edges of slivers, which are long.
     return mayHoldNoEnd &&
            this->isBare(tree, positionOf(own), positionOf(other), this->Factor * spacing) &&
-           (this->Criterion.drops(tree, bounds, own, other) ||
+           (this->Criterion.rejects(tree, bounds, own, other) ||
              this->joinsRims(tree, bounds, own, other, spacing));
   }
 
@@ -78,9 +78,9 @@ private:
     for (int i = 1; i < partCount && !isBare; ++i)
     {
       const double share = static_cast<double>(i) / partCount;
-      const Vector place = (1.0 - share) * a + share * b;
-      isBare = lengthOf(place - (i <= partCount / 2 ? a : b)) > radius &&
-               !AnyInBallSearch(tree, place, radius, isAny).hasAny();
+      const Vector center = (1.0 - share) * a + share * b;
+      isBare = lengthOf(center - (i <= partCount / 2 ? a : b)) > radius &&
+               !AnyInBallSearch(tree, center, radius, isAny).hasAny();
     }
     return isBare;
   }

@@ -4,7 +4,6 @@
 #include "Core/Places/Neighborhoods.h"
 #include "Core/Places/ProbePlaces.h"
 
-#include <algorithm>
 #include <bitset>
 #include <cstddef>
 #include <cstdint>

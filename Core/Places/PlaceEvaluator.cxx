@@ -38,7 +38,7 @@ PlaceEvaluator::PlaceEvaluator(const ProbeOptions& options, const std::vector<Pr
   : Options(options)
   , Arrays(arrays)
   , Fitter(options.method, hasGradients(arrays))
-  , OwnFitter(options.method, hasGradients(arrays))
+  , PresentFitter(options.method, hasGradients(arrays))
 {
 }
 
@@ -87,7 +87,7 @@ void PlaceEvaluator::evaluate(std::size_t place, const NearbySamples& around, st
     }
     else if (!this->read(array, around))
     {
-      this->evaluateOwn(array, place, around);
+      this->evaluatePresent(array, place, around);
     }
     else if (isOutside)
     {
@@ -154,10 +154,10 @@ bool PlaceEvaluator::read(const ProbedArray& array, const NearbySamples& around)
 }
 
 /// An array that lacks values of some samples is evaluated as if these did not exist.
-void PlaceEvaluator::evaluateOwn(
+void PlaceEvaluator::evaluatePresent(
   const ProbedArray& array, std::size_t place, const NearbySamples& around)
 {
-  this->Own.clear();
+  this->Present.clear();
   std::size_t fitted = 0;
   for (std::size_t i = 0; i < around.size(); ++i)
   {
@@ -166,9 +166,9 @@ void PlaceEvaluator::evaluateOwn(
     {
       for (SampleNumbers& values : this->Values)
       {
-        values[this->Own.size()] = values[i];
+        values[this->Present.size()] = values[i];
       }
-      this->Own.offsets.push_back(around.offsets[i]);
+      this->Present.offsets.push_back(around.offsets[i]);
       fitted += i < around.fitted ? 1 : 0;
     }
   }
@@ -177,13 +177,13 @@ void PlaceEvaluator::evaluateOwn(
     this->writeNothing(array, place);
     return;
   }
-  if ((this->kindsOf(this->Own.offsets) & PlaceOutside) != 0)
+  if ((this->kindsOf(this->Present.offsets) & PlaceOutside) != 0)
   {
     this->writeOutside(array, place);
     return;
   }
-  this->OwnFitter.prepare(this->Own.offsets, fitted, around.reach);
-  this->apply(array, place, this->OwnFitter);
+  this->PresentFitter.prepare(this->Present.offsets, fitted, around.reach);
+  this->apply(array, place, this->PresentFitter);
 }
 
 void PlaceEvaluator::apply(const ProbedArray& array, std::size_t place, PlaceFitter& fitter)

@@ -70,7 +70,7 @@ public:
 private:
   std::uint8_t kindsOf(const std::vector<Vector>& offsets) const;
   bool read(const ProbedArray& array, const NearbySamples& around);
-  void evaluateOwn(const ProbedArray& array, std::size_t place, const NearbySamples& around);
+  void evaluatePresent(const ProbedArray& array, std::size_t place, const NearbySamples& around);
   void apply(const ProbedArray& array, std::size_t place, PlaceFitter& fitter);
   void writeOutside(const ProbedArray& array, std::size_t place) const;
   void writeNothing(const ProbedArray& array, std::size_t place) const;
@@ -80,9 +80,9 @@ private:
   const ProbeOptions& Options;
   const std::vector<ProbedArray>& Arrays;
   PlaceFitter Fitter;
-  PlaceFitter OwnFitter;   // of an array that lacks values
-  bool IsPrepared = false; // the fitter, for the place
-  NearbySamples Own;
+  PlaceFitter PresentFitter; // of an array that lacks values
+  bool IsPrepared = false;   // the fitter, for the place
+  NearbySamples Present;
   std::vector<SampleNumbers> Values; // by component, then position
   std::vector<double> Numbers;       // by id
 };

@@ -4,6 +4,7 @@
 #include "Core/Base/Execution.h"
 #include "Core/Base/Lists.h"
 #include "Core/Base/Region.h"
+#include "Core/Base/Sorting.h"
 #include "Core/Base/Vector.h"
 #include "Core/Neighbors/NearestSamples.h"
 #include "Core/Places/PlaceEvaluator.h"
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <mutex>
 #include <type_traits>
 #include <utility>
@@ -28,7 +28,7 @@ class OwnNodes
 {
 public:
   OwnNodes(const Execution& execution, SampleTree<TSample>& tree)
-    : Exec(execution)
+    : Run(execution)
     , Tree(tree)
   {
   }
@@ -43,12 +43,12 @@ public:
       nodes.push_back(node.nodeIndex);
     }
     missing.clear();
-    splitToBuckets(this->Exec, this->Tree, nodes);
+    splitToBuckets(this->Run, this->Tree, nodes);
     return !nodes.empty();
   }
 
 private:
-  const Execution& Exec;
+  const Execution& Run;
   SampleTree<TSample>& Tree;
 };
 

@@ -14,10 +14,10 @@
 namespace isopoint
 {
 
-/// An end of an edge for all ranks: the place of its leaf in tree order, and the position there.
+/// An end of an edge for all ranks: the tree index of its leaf, and the position there.
 struct SentEnd
 {
-  std::uint64_t place;
+  std::uint64_t treeIndex;
   Vector position;
 };
 
@@ -37,7 +37,7 @@ std::size_t leafAt(const SampleTree<TSample>& tree, const SentEnd& end)
   while (tree.nodes[nodeIndex].isSplit())
   {
     const Node<TSample>& node = tree.nodes[nodeIndex];
-    nodeIndex = tree.child(node, end.place >= tree.nodes[node.upperNode()].begin);
+    nodeIndex = tree.child(node, end.treeIndex >= tree.nodes[node.upperNode()].begin);
   }
   requireLeaf(tree, nodeIndex, Region{ end.position, end.position });
   return nodeIndex;

@@ -43,8 +43,8 @@ public:
 
   ProcessGroup& processes() { return this->Processes; }
 
-  /// The rank that owns a place in tree order.
-  std::size_t ownerOf(std::uint64_t place) const { return rankAt(this->Begins, place); }
+  /// The rank that owns the sample with a tree index.
+  std::size_t ownerOf(std::uint64_t treeIndex) const { return rankAt(this->Begins, treeIndex); }
 
   bool isAny(bool mine) { return this->Processes.isAny(mine); }
   std::uint64_t sum(std::uint64_t mine) { return this->Processes.sum(mine); }
@@ -161,17 +161,17 @@ public:
 
   void order(std::vector<CrossingTetrahedron>& tetrahedra) const
   {
-    const auto placesOfCorners = [this](const CrossingTetrahedron& tetrahedron)
+    const auto treeIndicesOf = [this](const CrossingTetrahedron& tetrahedron)
     {
-      std::array<std::uint64_t, 4> places{};
-      std::transform(tetrahedron.corners.begin(), tetrahedron.corners.end(), places.begin(),
+      std::array<std::uint64_t, 4> indices{};
+      std::transform(tetrahedron.corners.begin(), tetrahedron.corners.end(), indices.begin(),
         [this](std::size_t leaf) { return this->Tree.nodes[leaf].begin; });
-      std::sort(places.begin(), places.end());
-      return places;
+      std::sort(indices.begin(), indices.end());
+      return indices;
     };
     std::sort(tetrahedra.begin(), tetrahedra.end(),
       [&](const CrossingTetrahedron& a, const CrossingTetrahedron& b)
-      { return placesOfCorners(a) < placesOfCorners(b); });
+      { return treeIndicesOf(a) < treeIndicesOf(b); });
   }
 
   void unite(std::vector<std::size_t>& found)
@@ -190,7 +190,7 @@ public:
         [&](std::size_t i)
         {
           const EdgeLeaves leaves{ edges[i].firstLeaf, edges[i].secondLeaf };
-          return this->Tree.isOwn(firstPlaceOf(this->Tree, leaves));
+          return this->Tree.isOwn(lowerTreeIndex(this->Tree, leaves));
         });
     fitAt(execution, context, *this, request, edges, starts, own, fits);
     this->gatherFits(own, fits);

@@ -8,7 +8,6 @@
 #include "Core/Tree/SampleTree.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -105,12 +104,12 @@ private:
   };
 
   /// -1, 0 or 1 if a sample is below, at or above the position of a middle sample.
-  static int sideOf(const TSample& sample, const MiddleSample& middle, const Vector& place)
+  static int sideOf(const TSample& sample, const MiddleSample& middle, const Vector& coordinates)
   {
     for (int i = 0; i < 3; ++i)
     {
       const auto coordinate = static_cast<double>(sample.position[(middle.axis + i) % 3]);
-      const double other = place[static_cast<std::size_t>(i)];
+      const double other = coordinates[static_cast<std::size_t>(i)];
       if (coordinate != other)
       {
         return coordinate < other ? -1 : 1;
@@ -120,7 +119,7 @@ private:
   }
 
   /// The coordinates of a middle sample, from its axis on.
-  static Vector placeOf(const MiddleSample& middle)
+  static Vector coordinatesOf(const MiddleSample& middle)
   {
     return { fromOrderedKey(middle.keys[0]), fromOrderedKey(middle.keys[1]),
       fromOrderedKey(middle.keys[2]) };
@@ -128,7 +127,7 @@ private:
 
   Sides sidesOf(const DealtNode& node, const MiddleSample& middle) const
   {
-    const Vector place = placeOf(middle);
+    const Vector coordinates = coordinatesOf(middle);
     const double infinity = std::numeric_limits<double>::infinity();
     Sides sides;
     double last = -infinity;
@@ -137,7 +136,7 @@ private:
     {
       const TSample& sample = this->Loaded.samples[i];
       const auto coordinate = static_cast<double>(sample.position[middle.axis]);
-      const int side = sideOf(sample, middle, place);
+      const int side = sideOf(sample, middle, coordinates);
       if (side < 0)
       {
         ++sides.less;
@@ -216,16 +215,16 @@ private:
     std::vector<DealtNode>& below)
   {
     SampleTree<TSample>& tree = this->Result.tree;
-    const double place = fromOrderedKey(middle.keys[0]);
+    const double coordinate = fromOrderedKey(middle.keys[0]);
     double last = fromOrderedKey(sides.last);
-    double first = place;
+    double first = coordinate;
     std::uint64_t lowerCount = sides.less;
     bool isLower = false; // whether samples at the middle's position belong in the lower half
     if (sides.equalBelow > 0 && sides.greater > 0)
     {
       isLower = true;
       lowerCount = node.count - sides.greater;
-      last = place;
+      last = coordinate;
       first = fromOrderedKey(~sides.notFirst);
     }
     else if (sides.equalBelow > 0 && sides.less == 0)
@@ -234,7 +233,7 @@ private:
       below.push_back(node);
       return;
     }
-    const Vector at = placeOf(middle);
+    const Vector at = coordinatesOf(middle);
     TSample* const samples = this->Loaded.samples.data();
     const TSample* const cut = std::partition(samples + node.begin, samples + node.end,
       [&](const TSample& sample) { return sideOf(sample, middle, at) < (isLower ? 1 : 0); });

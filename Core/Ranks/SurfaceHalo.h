@@ -40,7 +40,7 @@ public:
   /// @param hasFits whether surfaces have fits; an empty one does not show this
   SurfaceHalo(const Execution& execution, SharedRanks<TSample>& ranks,
     const SampleTree<TSample>& tree, const Neighborhoods& known, Isosurface own, bool hasFits)
-    : Exec(execution)
+    : Run(execution)
     , Tree(tree)
     , Ranks(ranks)
     , Cache(known)
@@ -85,14 +85,14 @@ public:
   /// or the first two if gather() fetched only three.
   const std::vector<bool>* inner() const { return &this->IsInner; }
 
-  std::vector<std::size_t> owned() const { return markedOf(this->Exec, this->IsOwned); }
+  std::vector<std::size_t> owned() const { return markedOf(this->Run, this->IsOwned); }
   std::vector<std::size_t> ghosts() const
   {
     return itemsThat(
-      this->Exec, this->All.size(), [this](std::size_t i) { return !this->IsOwned[i]; });
+      this->Run, this->All.size(), [this](std::size_t i) { return !this->IsOwned[i]; });
   }
 
-  Isosurface takeOwned() const { return chosenIsopoints(this->Exec, this->All, this->owned()); }
+  Isosurface takeOwned() const { return chosenIsopoints(this->Run, this->All, this->owned()); }
 
   // See AllPoints.
 
@@ -170,7 +170,7 @@ private:
     std::array<IsopointEdge, maxCorners> beyond; // the points beyond its sides, if any
   };
 
-  /// The place of a leaf, and an isopoint whose edge ends there.
+  /// The tree index of a leaf, and an isopoint whose edge ends there.
   using OwnEnd = std::pair<std::uint64_t, std::size_t>;
 
   static std::vector<std::size_t> endsOf(const std::vector<EdgeLeaves>& leaves)
@@ -204,7 +204,7 @@ private:
     std::vector<std::size_t> all = leaves;
     std::mutex mutex;
     this->Ranks.forEach(
-      this->Exec, { leaves.size(), 1024, 256 }, []() { return std::vector<Id>(); },
+      this->Run, { leaves.size(), 1024, 256 }, []() { return std::vector<Id>(); },
       [&](std::vector<Id>& memory, std::size_t i)
       {
         const IndexSpan<Id> touching =
@@ -251,14 +251,14 @@ private:
   }
 
   /// Writes the isopoints that end in some of this rank's leaves, each once.
-  void answer(const std::vector<std::uint64_t>& places, std::size_t rank, ByteBuffer& answer)
+  void answer(const std::vector<std::uint64_t>& treeIndices, std::size_t rank, ByteBuffer& answer)
   {
     std::vector<std::size_t> isopoints;
-    for (const std::uint64_t place : places)
+    for (const std::uint64_t treeIndex : treeIndices)
     {
       for (auto end =
-             std::lower_bound(this->OwnEnds.begin(), this->OwnEnds.end(), OwnEnd{ place, 0 });
-           end != this->OwnEnds.end() && end->first == place; ++end)
+             std::lower_bound(this->OwnEnds.begin(), this->OwnEnds.end(), OwnEnd{ treeIndex, 0 });
+           end != this->OwnEnds.end() && end->first == treeIndex; ++end)
       {
         isopoints.push_back(end->second);
       }
@@ -315,7 +315,7 @@ private:
     order.erase(std::unique(order.begin(), order.end(),
                   [&both](std::size_t a, std::size_t b) { return both.edges[a] == both.edges[b]; }),
       order.end());
-    this->All = chosenIsopoints(this->Exec, both, order);
+    this->All = chosenIsopoints(this->Run, both, order);
     std::sort(this->Surrounded.begin(), this->Surrounded.end());
     this->IsInner.clear();
     this->OwnIndices.resize(this->Own.size());
@@ -339,7 +339,7 @@ private:
     for (const std::size_t i : this->OwnIndices)
     {
       isOwn[i] = true;
-      this->IsOwned[i] = this->Tree.isOwn(firstPlaceOf(this->Tree, this->All.leaves[i]));
+      this->IsOwned[i] = this->Tree.isOwn(lowerTreeIndex(this->Tree, this->All.leaves[i]));
       // Both ranks of an edge between two send such a ghost.
       if (this->IsOwned[i] || isShared)
       {
@@ -347,7 +347,7 @@ private:
       }
     }
     this->OwnInTreeOrder =
-      chosenThat(this->Exec, inOrderOfLeaves(this->Exec, this->All.leaves, this->Tree.nodes.size()),
+      chosenThat(this->Run, inOrderOfLeaves(this->Run, this->All.leaves, this->Tree.nodes.size()),
         [&](std::size_t i) { return isOwn[i]; });
   }
 
@@ -365,7 +365,7 @@ private:
       this->All.edges.begin());
   }
 
-  const Execution& Exec;
+  const Execution& Run;
   const SampleTree<TSample>& Tree;
   SharedRanks<TSample>& Ranks;
   const Neighborhoods& Cache;

@@ -79,7 +79,7 @@ private:
     {
       this->Absent.push_back(nodeIndex);
     }
-    else if (this->isOwn(node) || !node.isSplit())
+    else if (this->Tree.hasOnlyOwn(node) || !node.isSplit())
     {
       this->Whole.push_back(nodeIndex);
     }
@@ -88,12 +88,6 @@ private:
       this->visit(node.lowerNode());
       this->visit(node.upperNode());
     }
-  }
-
-  /// Whether this rank owns all samples of a node.
-  bool isOwn(const Node<TSample>& node) const
-  {
-    return node.begin >= this->Tree.ownBegin && node.end <= this->Tree.ownEnd;
   }
 
   /// Calls action(sample, rank that has read it) for each sample that this rank holds.
@@ -183,7 +177,7 @@ private:
   void uniteFrom(std::size_t nodeIndex)
   {
     Node<TSample>& node = this->Tree.nodes[nodeIndex];
-    if (!this->isOwn(node) && node.isSplit())
+    if (!this->Tree.hasOnlyOwn(node) && node.isSplit())
     {
       this->uniteFrom(node.lowerNode());
       this->uniteFrom(node.upperNode());

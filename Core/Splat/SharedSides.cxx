@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Core/Splat/SharedSides.h"
 
-#include "Core/Base/Lists.h"
+#include "Core/Base/Sorting.h"
 
 #include <algorithm>
 #include <cstddef>

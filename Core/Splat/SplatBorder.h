@@ -32,7 +32,7 @@ double extentUpToGaps(
   {
     return extent;
   }
-  const Vector offset = positionOf(*sample) - query.place;
+  const Vector offset = positionOf(*sample) - query.position;
   ExtentQuery nearer = query;
   nearer.reach = std::nextafter(lengthOf(offset), 0.0);
   nearer.enough = std::min(query.enough, nearer.reach);

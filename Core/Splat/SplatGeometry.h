@@ -2,8 +2,8 @@
 #pragma once
 
 #include "Core/Base/Execution.h"
-#include "Core/Base/Lists.h"
 #include "Core/Base/RawArray.h"
+#include "Core/Base/Sorting.h"
 #include "Core/Extraction/Isosurface.h"
 #include "Core/Splat/CellCutter.h"
 #include "Core/Splat/HiddenPoints.h"
@@ -29,7 +29,7 @@ class SplatMaker
 public:
   SplatMaker(const Execution& execution, const SurfacePoints& points, const TNeighbors& neighbors,
     const TExtents* extents, const SplatOptions& options, TOwnedPoints& owned)
-    : Exec(execution)
+    : Run(execution)
     , Points(points)
     , Neighbors(neighbors)
     , Extents(extents)
@@ -46,7 +46,7 @@ public:
     {
       this->findHidden();
       this->cutCells();
-      shapeSplats(partOf(this->Exec, cellsEnd, 1.0), this->Points, std::move(this->Cells),
+      shapeSplats(partOf(this->Run, cellsEnd, 1.0), this->Points, std::move(this->Cells),
         this->CellNormals, this->Owned.shaped(), this->Splats);
     }
     return std::move(this->Splats);
@@ -75,18 +75,18 @@ private:
   {
     this->CellNormals.resize(this->Splats.size());
     std::vector<std::size_t> unfitted =
-      setFieldNormals(this->Exec, this->Points, this->Options.fieldNormals,
+      setFieldNormals(this->Run, this->Points, this->Options.fieldNormals,
         [this](std::size_t point, const Vector& normal) { this->CellNormals[point] = normal; });
     this->Owned.keepOwn(unfitted);
     this->forPoints(
-      partOf(this->Exec, 0.0, this->Options.shapes ? normalsEnd : 1.0), unfitted,
+      partOf(this->Run, 0.0, this->Options.shapes ? normalsEnd : 1.0), unfitted,
       [this]() {
         return PlaneNormals<TNeighbors>(this->Neighbors, this->Points, this->Options.neighborCount);
       },
       [this](PlaneNormals<TNeighbors>& normals, std::size_t point)
       { this->CellNormals[point] = normals.at(point); });
     this->Owned.share(this->CellNormals);
-    forEachIndex(this->Exec, this->Splats.size(),
+    forEachIndex(this->Run, this->Splats.size(),
       [this](std::size_t point) { this->Splats[point].normal = this->CellNormals[point]; });
   }
 
@@ -101,31 +101,31 @@ private:
     {
       const std::vector<SplatState> states = this->States;
       this->forPoints(
-        partOf(this->Exec, normalsEnd, normalsEnd), undecided,
+        partOf(this->Run, normalsEnd, normalsEnd), undecided,
         [this]()
         { return HiddenPoints<TNeighbors>(this->Neighbors, this->Points, this->CellNormals); },
         [&](HiddenPoints<TNeighbors>& hidden, std::size_t point)
         { this->States[point] = hidden.next(point, states); });
       this->Owned.share(this->States);
-      std::vector<std::size_t> left = itemsThat(this->Exec, undecided.size(),
+      std::vector<std::size_t> left = itemsThat(this->Run, undecided.size(),
         [&](std::size_t i) { return this->States[undecided[i]] == SplatState::Undecided; });
-      undecided = chosenOf(this->Exec, undecided, left);
+      undecided = chosenOf(this->Run, undecided, left);
     }
   }
 
   void cutCells()
   {
     this->Cells.resize(this->Splats.size());
-    this->cut(partOf(this->Exec, normalsEnd, cutEnd), this->Owned.own());
-    this->Missed = missedPoints(this->Exec, this->Points, this->CellNormals, this->Cells);
+    this->cut(partOf(this->Run, normalsEnd, cutEnd), this->Owned.own());
+    this->Missed = missedPoints(this->Run, this->Points, this->CellNormals, this->Cells);
     std::vector<std::size_t> missing(this->Missed.size());
     forEachIndex(
-      this->Exec, missing.size(), [&](std::size_t i) { missing[i] = this->Missed[i].first; });
-    missing = sortedUnique(this->Exec, missing, this->Splats.size());
+      this->Run, missing.size(), [&](std::size_t i) { missing[i] = this->Missed[i].first; });
+    missing = sortedUnique(this->Run, missing, this->Splats.size());
     this->Owned.keepOwn(missing);
-    this->cut(partOf(this->Exec, cutEnd, cutEnd), missing);
+    this->cut(partOf(this->Run, cutEnd, cutEnd), missing);
     const std::vector<std::size_t> changed = this->correctPlanes();
-    this->cut(partOf(this->Exec, cutEnd, cellsEnd), changed);
+    this->cut(partOf(this->Run, cutEnd, cellsEnd), changed);
   }
 
   /// Cuts the cells of some points, and shares all cells.
@@ -162,7 +162,7 @@ private:
   {
     const std::vector<std::size_t>& own = this->Owned.own();
     std::vector<char> areChanged(this->Splats.size(), 0);
-    forEachIndex(this->Exec, own.size(),
+    forEachIndex(this->Run, own.size(),
       [&](std::size_t i)
       {
         const std::size_t point = own[i];
@@ -181,7 +181,7 @@ private:
     this->Owned.share(this->States);
     this->Owned.share(this->CellNormals);
     this->Owned.share(areChanged);
-    const std::vector<std::size_t> changed = itemsThat(this->Exec, own.size(),
+    const std::vector<std::size_t> changed = itemsThat(this->Run, own.size(),
       [&](std::size_t i)
       {
         const VoronoiCell& cell = this->Cells[own[i]];
@@ -190,7 +190,7 @@ private:
                  [&](const VoronoiCell::Corner& corner)
                  { return VoronoiCell::isPoint(corner.beyond) && areChanged[corner.beyond]; });
       });
-    return chosenOf(this->Exec, own, changed);
+    return chosenOf(this->Run, own, changed);
   }
 
   /// Whether a point is not on the surface around it. Either its edge leads across a void, and no
@@ -217,7 +217,7 @@ private:
                                  std::all_of(cell.begin(), cell.end(), isAlone)));
   }
 
-  const Execution& Exec;
+  const Execution& Run;
   const SurfacePoints& Points;
   const TNeighbors& Neighbors;
   const TExtents* Extents;

@@ -3,6 +3,7 @@
 
 #include "Core/Base/Hash.h"
 #include "Core/Base/Lists.h"
+#include "Core/Base/Sorting.h"
 
 #include <algorithm>
 #include <cmath>

@@ -46,7 +46,7 @@ public:
   /// by null if that is large or the search fails
   CrossingTetrahedraFinder(const Execution& execution, SampleTree<TSample>& tree, TRanks& ranks,
     LeafValues<TSample>& values, double isovalue, std::unique_ptr<KeptTetrahedra>& kept)
-    : Exec(execution)
+    : Run(execution)
     , Tree(tree)
     , Ranks(ranks)
     , Values(values)
@@ -64,13 +64,13 @@ public:
     {
       return {};
     }
-    std::vector<CrossingTetrahedron> found = this->crossing();
+    std::vector<CrossingTetrahedron> found = this->triangulation().crossingTetrahedra(this->Run);
     this->finish();
     return found;
   }
 
   /// For bodies: certifies the crossing tetrahedra and the crossing facets of the hull, the outside
-  /// being below, and then calls explore(), which may use triangulation() and certifyAims().
+  /// being below, and then calls explore(), which may use triangulation() and certifyTargets().
   /// Coplanar samples have no body.
   /// @param nodes as above
   /// @throws as find(), and what explore throws
@@ -90,16 +90,16 @@ public:
 
   /// Certifies the tetrahedra that the triangulation aims at; inserts samples in their spheres,
   /// which replaces them, until none are left.
-  void certifyAims()
+  void certifyTargets()
   {
     while (!this->Current->isWhole)
     {
-      const std::size_t openCount = this->triangulation().listOpenAims();
-      if (!this->Ranks.isAny(openCount > 0))
+      const std::vector<CellHandle> open = this->triangulation().openTargets();
+      if (!this->Ranks.isAny(!open.empty()))
       {
         return;
       }
-      this->certifyListed(openCount);
+      this->certifyOrInsert(open);
       this->insertAllIfSpent();
     }
   }
@@ -149,12 +149,12 @@ private:
   {
     this->Counts.size = this->triangulation().size();
     this->Counts.isWhole = this->Current->isWhole;
-    this->Exec.progress(1.0);
+    this->Run.progress(1.0);
     if (this->Current->isSmall(this->Tree.ownCount()))
     {
       this->Kept = std::move(this->Current);
     }
-    dropTetrahedra(this->Exec, this->Current);
+    dropTetrahedra(this->Run, this->Current);
   }
 
   /// The unit of this rank's coordinates, unless too small for doubles to be exact.
@@ -188,15 +188,6 @@ private:
     return unit;
   }
 
-  std::vector<CrossingTetrahedron> crossing()
-  {
-    std::vector<CrossingTetrahedron> result = tabulated<CrossingTetrahedron>(this->Exec,
-      this->triangulation().listCrossingTetrahedra(this->Exec),
-      [this](std::size_t i) { return this->triangulation().crossingTetrahedronAt(i); });
-    this->triangulation().dropLists();
-    return result;
-  }
-
   /// Reusable memory of one thread.
   struct LeafSearch
   {
@@ -212,7 +203,7 @@ private:
     const auto makeSearch = [this]() { return LeafSearch{ pathToRoot(this->Tree), {} }; };
     constexpr std::size_t grain = 256;
     this->Ranks.forEach(
-      this->Exec, { nodes.size(), 8 * grain, grain }, makeSearch,
+      this->Run, { nodes.size(), 8 * grain, grain }, makeSearch,
       [&](LeafSearch& search, std::size_t i)
       {
         search.found.clear();
@@ -228,7 +219,7 @@ private:
         const std::lock_guard<std::mutex> lock(mutex);
         leaves.insert(leaves.end(), search.found.begin(), search.found.end());
       },
-      partOf(this->Exec, 0.0, searchEnd).progress);
+      partOf(this->Run, 0.0, searchEnd).progress);
     return leaves;
   }
 
@@ -247,7 +238,7 @@ private:
   void gather(std::vector<std::size_t>& leaves)
   {
     this->Ranks.gatherLeaves(leaves);
-    leaves = inTreeOrder(this->Exec, this->Tree, leaves);
+    leaves = inTreeOrder(this->Run, this->Tree, leaves);
   }
 
   /// Reuses the kept band if it contains at least a quarter of the leaves and, except for bodies,
@@ -260,11 +251,11 @@ private:
     const bool isNew = this->Ranks.isAny(!this->Current);
     if (isNew || !this->isOfUse(leaves))
     {
-      dropTetrahedra(this->Exec, this->Current);
-      this->Current = std::make_unique<KeptTetrahedra>(unitOfSamples(this->Exec, this->Tree));
+      dropTetrahedra(this->Run, this->Current);
+      this->Current = std::make_unique<KeptTetrahedra>(unitOfSamples(this->Run, this->Tree));
       return;
     }
-    this->triangulation().setSides(this->Exec, [this](std::uint64_t leaf)
+    this->triangulation().setSides(this->Run, [this](std::uint64_t leaf)
       { return this->Values.at(static_cast<std::size_t>(leaf)) < this->Isovalue; });
   }
 
@@ -274,9 +265,9 @@ private:
     constexpr std::size_t maxTimes = 3;
     this->Current->marks.grow(this->Tree.nodes.size());
     std::size_t known = 0;
-    forEachInOrder(this->Exec, leaves.size(),
+    forEachInOrder(this->Run, leaves.size(),
       [&](std::size_t i)
-      { known += this->Current->marks.has(leaves[i], bandmarks::inBand) ? 1 : 0; });
+      { known += this->Current->marks.has(leaves[i], nodemarks::inserted) ? 1 : 0; });
     return minShare * known >= leaves.size() &&
            (this->IsBody || this->triangulation().size() <= maxTimes * leaves.size());
   }
@@ -285,7 +276,7 @@ private:
   void insert(const std::vector<std::size_t>& leaves)
   {
     this->Current->marks.grow(this->Tree.nodes.size());
-    this->triangulation().insert(this->Exec, this->newSites(leaves),
+    this->triangulation().insert(this->Run, this->newSites(leaves),
       [step = this->nextStep()](double share)
       {
         throwIfAborted(step);
@@ -301,17 +292,17 @@ private:
   }
 
   /// Marks leaves as members of the band. @returns the new ones
-  std::vector<BandSite> newSites(const std::vector<std::size_t>& leaves)
+  std::vector<Site> newSites(const std::vector<std::size_t>& leaves)
   {
-    std::vector<BandSite> sites;
+    std::vector<Site> sites;
     sites.reserve(leaves.size());
-    forEachInOrder(this->Exec, leaves.size(),
+    forEachInOrder(this->Run, leaves.size(),
       [&](std::size_t i)
       {
         const std::size_t leaf = leaves[i];
-        if (!this->Current->marks.has(leaf, bandmarks::inBand))
+        if (!this->Current->marks.has(leaf, nodemarks::inserted))
         {
-          this->Current->marks.set(leaf, bandmarks::inBand);
+          this->Current->marks.set(leaf, nodemarks::inserted);
           sites.push_back({ positionOf(this->Tree.sampleOf(leaf)), leaf,
             this->Values.at(leaf) < this->Isovalue });
         }
@@ -321,13 +312,13 @@ private:
 
   void split(const std::vector<std::size_t>& nodes)
   {
-    splitFurther(this->Exec, this->Tree, nodes);
+    splitFurther(this->Run, this->Tree, nodes);
     this->Current->marks.grow(this->Tree.nodes.size());
   }
 
   void insertAll()
   {
-    splitCompletely(this->Exec, this->Tree, { SampleTree<TSample>::rootNode });
+    splitCompletely(this->Run, this->Tree, { SampleTree<TSample>::rootNode });
     std::vector<std::size_t> leaves;
     this->forEachOwnEnd([&](std::size_t leaf) { leaves.push_back(leaf); });
     this->gatherAndInsert(std::move(leaves));
@@ -431,7 +422,7 @@ private:
       {
         if (count++ % batch == 0)
         {
-          throwIfAborted(this->Exec);
+          throwIfAborted(this->Run);
         }
         if (this->Tree.hasOwn(this->Tree.nodes[below.nodeIndex()]))
         {
@@ -452,17 +443,17 @@ private:
   /// @returns whether any cells remain uncertified
   bool certify()
   {
-    const std::size_t openCount = this->triangulation().listOpenCells(this->Exec);
+    const std::vector<CellHandle> open = this->triangulation().openCells(this->Run);
     this->Visits += this->triangulation().cellCount();
-    this->certifyListed(openCount);
-    return this->Ranks.isAny(openCount > 0);
+    this->certifyOrInsert(open);
+    return this->Ranks.isAny(!open.empty());
   }
 
-  /// Certifies the listed cells, or inserts what their spheres contain.
-  void certifyListed(std::size_t openCount)
+  /// Certifies the cells whose spheres are empty, and inserts the samples found in the others.
+  void certifyOrInsert(const std::vector<CellHandle>& open)
   {
-    throwIfAborted(this->Exec);
-    SearchResult result = this->searchSpheres(openCount);
+    throwIfAborted(this->Run);
+    SearchResult result = this->searchSpheres(open);
     if (!this->Ranks.isAny(this->isSpent()))
     {
       this->split(result.unsplit);
@@ -478,13 +469,13 @@ private:
     }
   }
 
-  SearchResult searchSpheres(std::size_t openCount)
+  SearchResult searchSpheres(const std::vector<CellHandle>& open)
   {
     SearchResult all;
     std::mutex mutex;
     constexpr std::size_t grain = 512;
     forBatches(
-      this->Exec, openCount, 8 * grain, grain,
+      this->Run, open.size(), 8 * grain, grain,
       [&](std::size_t begin, std::size_t end)
       {
         SphereSearch<TSample> search(this->Tree, this->triangulation(), this->Current->marks,
@@ -493,13 +484,13 @@ private:
         std::size_t visits = 0;
         for (std::size_t i = begin; i < end && !this->isSpent(); ++i)
         {
-          if (const std::optional<std::size_t> leaf = search.find(i))
+          if (const std::optional<std::size_t> leaf = search.find(open[i]))
           {
             leaves.push_back(*leaf);
           }
           else if (search.isComplete())
           {
-            this->triangulation().certify(i);
+            this->triangulation().certify(open[i]);
           }
           this->Visits += search.visits() - visits;
           ++this->Searches;
@@ -518,7 +509,7 @@ private:
   bool checkSides()
   {
     SideCheck<TSample> check(
-      this->Exec, this->Tree, this->triangulation(), this->Current->marks, this->Values);
+      this->Run, this->Tree, this->triangulation(), this->Current->marks, this->Values);
     std::vector<std::size_t> leaves;
     std::vector<std::size_t> unsplit;
     for (const std::size_t node : check.find(this->Isovalue))
@@ -537,7 +528,7 @@ private:
   {
     const double begin = this->StepEnd;
     this->StepEnd = 0.5 * (begin + 1.0);
-    return partOf(this->Exec, begin, this->StepEnd);
+    return partOf(this->Run, begin, this->StepEnd);
   }
 
   /// Whether it is faster to insert all samples, because so many are near the surface.
@@ -563,7 +554,7 @@ private:
     return visits > visitsForSample * (this->Tree.samples.size() + smallCloud);
   }
 
-  const Execution& Exec;
+  const Execution& Run;
   SampleTree<TSample>& Tree;
   TRanks& Ranks;
   LeafValues<TSample>& Values;

@@ -35,7 +35,7 @@ struct KeptTetrahedra
   }
 
   PartialTriangulation triangulation;
-  NodeMarks marks;              // see bandmarks
+  NodeMarks marks;              // see nodemarks
   ConcurrentMemo<Region> boxes; // see SphereSearch
   bool isWhole = false;         // whether all samples are in it
 };

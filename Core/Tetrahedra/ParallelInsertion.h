@@ -28,7 +28,7 @@
 #include <memory>
 #include <vector>
 
-namespace isopoint::band
+namespace isopoint::cgal
 {
 
 /// The leaf of a vertex and the side of its value, packed into one integer.
@@ -59,7 +59,7 @@ public:
   using category = boost::readable_property_map_tag;
 
   ReadPoints(const Execution& execution, const std::vector<Point>& points, std::size_t& reads)
-    : Exec(&execution)
+    : Run(&execution)
     , Points(&points)
     , Reads(&reads)
   {
@@ -70,13 +70,13 @@ public:
     constexpr std::size_t batch = 1 << 16;
     if (++*points.Reads % batch == 0)
     {
-      throwIfAborted(*points.Exec);
+      throwIfAborted(*points.Run);
     }
     return (*points.Points)[site];
   }
 
 private:
-  const Execution* Exec;
+  const Execution* Run;
   const std::vector<Point>* Points;
   std::size_t* Reads; // counted by all copies
 };
@@ -181,9 +181,9 @@ inline void reserveCells(Triangulation& triangulation)
 class Insertion
 {
 public:
-  Insertion(const Execution& execution, Triangulation& cells, const std::vector<BandSite>& sites,
+  Insertion(const Execution& execution, Triangulation& cells, const std::vector<Site>& sites,
     const std::function<void(double share)>& step)
-    : Exec(execution)
+    : Run(execution)
     , Cells(cells)
     , Sites(sites)
     , Step(step)
@@ -224,7 +224,7 @@ private:
   void sort()
   {
     std::vector<Point> points(this->Sites.size());
-    forEachIndex(this->Exec, points.size(),
+    forEachIndex(this->Run, points.size(),
       [&](std::size_t site)
       {
         points[site] = pointAt(this->Sites[site].position);
@@ -233,7 +233,7 @@ private:
     std::size_t reads = 0;
     CGAL::spatial_sort(this->Order.begin(), this->Order.end(),
       CGAL::Spatial_sort_traits_adapter_3<Kernel, ReadPoints>(
-        ReadPoints(this->Exec, points, reads)));
+        ReadPoints(this->Run, points, reads)));
   }
 
   /// The ends of the levels; levels with few samples are combined.
@@ -249,10 +249,10 @@ private:
     return ends;
   }
 
-  const BandSite& siteAt(std::size_t place) const { return this->Sites[this->Order[place]]; }
-  VertexInfo infoAt(std::size_t place) const
+  const Site& siteAt(std::size_t i) const { return this->Sites[this->Order[i]]; }
+  VertexInfo infoAt(std::size_t i) const
   {
-    return { this->siteAt(place).leaf, this->siteAt(place).isBelow };
+    return { this->siteAt(i).leaf, this->siteAt(i).isBelow };
   }
 
   void insertAlone(std::size_t begin, std::size_t end)
@@ -260,22 +260,22 @@ private:
     constexpr std::size_t stepSize = 512;
     Vertex hint;
     freeCells = 0;
-    for (std::size_t place = begin; place < end; ++place)
+    for (std::size_t i = begin; i < end; ++i)
     {
-      if ((place - begin) % stepSize == 0)
+      if ((i - begin) % stepSize == 0)
       {
         this->report();
       }
-      this->insert(place, hint);
+      this->insert(i, hint);
     }
   }
 
   /// @param hint close to the sample, or null; set to its vertex
-  void insert(std::size_t place, Vertex& hint)
+  void insert(std::size_t i, Vertex& hint)
   {
     reserveCells(this->Cells);
-    hint = this->Cells.insert(pointAt(this->siteAt(place).position), hint);
-    hint->info() = this->infoAt(place);
+    hint = this->Cells.insert(pointAt(this->siteAt(i).position), hint);
+    hint->info() = this->infoAt(i);
     ++this->Done;
   }
 
@@ -287,7 +287,7 @@ private:
   void insertLevel(std::size_t begin, std::size_t end)
   {
 #ifdef CGAL_LINKED_WITH_TBB
-    if (this->Exec.threads > 1 && end - begin >= manySites && this->Cells.dimension() == 3 &&
+    if (this->Run.threads > 1 && end - begin >= manySites && this->Cells.dimension() == 3 &&
         this->makeLocks())
     {
       this->insertTogether(begin, end);
@@ -306,7 +306,7 @@ private:
     {
       box += point.bbox();
     }
-    for (const BandSite& site : this->Sites)
+    for (const Site& site : this->Sites)
     {
       box += pointAt(site.position).bbox();
     }
@@ -339,7 +339,7 @@ private:
 
   std::vector<Stream> streamsOf(std::size_t begin, std::size_t end) const
   {
-    const std::size_t length = (end - begin + this->Exec.threads - 1) / this->Exec.threads;
+    const std::size_t length = (end - begin + this->Run.threads - 1) / this->Run.threads;
     std::vector<Stream> streams;
     for (std::size_t next = begin; next < end; next += length)
     {
@@ -360,7 +360,7 @@ private:
     {
       count += endOfBatch(stream) - stream.next;
     }
-    forRanges(this->Exec, streams.size(), 1,
+    forRanges(this->Run, streams.size(), 1,
       [&](std::size_t first, std::size_t last)
       {
         for (std::size_t i = first; i < last; ++i)
@@ -374,9 +374,9 @@ private:
     {
       this->Done -= stream.left.size();
       leftCount += stream.left.size();
-      for (const std::size_t place : stream.left)
+      for (const std::size_t i : stream.left)
       {
-        this->insert(place, stream.hint);
+        this->insert(i, stream.hint);
       }
       stream.left.clear();
     }
@@ -402,23 +402,23 @@ private:
       }
     }
     // A retry often succeeds because other threads have released their locks.
-    const auto isInserted = [&](std::size_t place) { return this->tryInsert(place, stream.hint); };
+    const auto isInserted = [&](std::size_t i) { return this->tryInsert(i, stream.hint); };
     stream.left.erase(
       std::remove_if(stream.left.begin(), stream.left.end(), isInserted), stream.left.end());
   }
 
   /// Inserts a sample if it gets the locks. @param hint close to it; set to its vertex
-  bool tryInsert(std::size_t place, Vertex& hint)
+  bool tryInsert(std::size_t i, Vertex& hint)
   {
     reserveCells(this->Cells);
-    const Point point = pointAt(this->siteAt(place).position);
+    const Point point = pointAt(this->siteAt(i).position);
     bool hasLocks = this->Cells.try_lock_vertex(hint) && this->Cells.try_lock_point(point);
     if (hasLocks)
     {
       const Vertex vertex = this->Cells.insert(point, hint, &hasLocks);
       if (hasLocks)
       {
-        vertex->info() = this->infoAt(place);
+        vertex->info() = this->infoAt(i);
         hint = vertex;
       }
     }
@@ -426,13 +426,13 @@ private:
     return hasLocks;
   }
 
-  const Execution& Exec;
+  const Execution& Run;
   Triangulation& Cells;
-  const std::vector<BandSite>& Sites;
+  const std::vector<Site>& Sites;
   const std::function<void(double share)>& Step;
   std::vector<std::size_t> Order;
   std::size_t Done = 0; // samples inserted
   std::unique_ptr<Locks> Grid;
 };
 
-} // namespace isopoint::band
+} // namespace isopoint::cgal

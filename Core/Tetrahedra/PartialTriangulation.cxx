@@ -2,6 +2,7 @@
 #include "Core/Tetrahedra/PartialTriangulation.h"
 
 #include "Core/Base/Lists.h"
+#include "Core/Base/Sorting.h"
 #include "Core/Tetrahedra/ParallelInsertion.h"
 
 #ifdef CGAL_LINKED_WITH_TBB
@@ -20,12 +21,12 @@ namespace isopoint
 namespace
 {
 
-using band::Cell;
-using band::Point;
-using band::pointAt;
-using band::Triangulation;
-using band::Vertex;
-using band::VertexInfo;
+using cgal::Cell;
+using cgal::Point;
+using cgal::pointAt;
+using cgal::Triangulation;
+using cgal::Vertex;
+using cgal::VertexInfo;
 
 /// An even permutation of the corners with those below the isovalue first.
 CrossingTetrahedron bySides(Cell cell)
@@ -37,13 +38,13 @@ CrossingTetrahedron bySides(Cell cell)
   result.belowCount =
     static_cast<std::uint8_t>(std::count_if(corners.begin(), corners.end(), isBelow));
   bool isOdd = false;
-  for (std::size_t place = 0; place < result.belowCount; ++place)
+  for (std::size_t i = 0; i < result.belowCount; ++i)
   {
     const std::size_t from = static_cast<std::size_t>(
-      std::find_if(corners.begin() + static_cast<std::ptrdiff_t>(place), corners.end(), isBelow) -
+      std::find_if(corners.begin() + static_cast<std::ptrdiff_t>(i), corners.end(), isBelow) -
       corners.begin());
-    std::swap(corners[place], corners[from]);
-    isOdd = isOdd != (place != from);
+    std::swap(corners[i], corners[from]);
+    isOdd = isOdd != (i != from);
   }
   if (isOdd)
   {
@@ -65,6 +66,17 @@ Vector positionOf(const Point& point)
   return { point.x(), point.y(), point.z() };
 }
 
+CellHandle handleOf(Cell cell)
+{
+  return reinterpret_cast<CellHandle>(&*cell);
+}
+
+Cell cellOf(CellHandle handle)
+{
+  return Triangulation::Triangulation_data_structure::Cell_range::s_iterator_to(
+    *reinterpret_cast<Cell::value_type*>(handle));
+}
+
 } // namespace
 
 class PartialTriangulation::Internals
@@ -72,19 +84,18 @@ class PartialTriangulation::Internals
 public:
   explicit Internals(const CoordinateUnit& unit)
     : Unit(unit)
-    , Cells(band::Kernel(&this->Unit))
+    , Cells(cgal::Kernel(&this->Unit))
   {
   }
 
   CoordinateUnit Unit;
   Triangulation Cells;
-  std::vector<Cell> All;    // including cells beyond the hull; empty after insertions
-  std::vector<Cell> Listed; // by the last request
+  std::vector<CellHandle> All; // including cells beyond the hull; empty after insertions
   bool IsOutsideBelow = false;
 
   /// A cell and the index of a corner: the cell across the facet opposite to it.
-  using Aim = std::pair<Cell, int>;
-  std::vector<Aim> Aims;
+  using Target = std::pair<Cell, int>;
+  std::vector<Target> Targets;
   std::vector<Cell> Explored; // by number
 
   bool isInfinite(Cell cell) const { return this->Cells.is_infinite(cell); }
@@ -104,31 +115,31 @@ public:
     this->Explored.push_back(cell);
   }
 
-  /// Numbers the explored tetrahedra from one on anew, in the order of their corners' places.
+  /// Numbers the explored tetrahedra from one on anew, in the order of their corners' tree indices.
   void orderExplored(const Execution& execution, std::size_t first,
-    const std::function<std::uint64_t(std::uint64_t leaf)>& placeOf)
+    const std::function<std::uint64_t(std::uint64_t leaf)>& treeIndexOf)
   {
-    using Places = std::array<std::uint64_t, 4>; // ascending
+    using TreeIndices = std::array<std::uint64_t, 4>; // ascending
     const std::vector<Cell> cells(
       this->Explored.begin() + static_cast<std::ptrdiff_t>(first), this->Explored.end());
-    const std::vector<Places> places = tabulated<Places>(execution, cells.size(),
+    const std::vector<TreeIndices> indices = tabulated<TreeIndices>(execution, cells.size(),
       [&](std::size_t i)
       {
-        Places ofCorners{};
+        TreeIndices ofCorners{};
         for (int corner = 0; corner < 4; ++corner)
         {
           ofCorners[static_cast<std::size_t>(corner)] =
-            placeOf(cells[i]->vertex(corner)->info().leaf());
+            treeIndexOf(cells[i]->vertex(corner)->info().leaf());
         }
         std::sort(ofCorners.begin(), ofCorners.end());
         return ofCorners;
       });
     std::uint64_t most = 0;
     forEachInOrder(
-      execution, places.size(), [&](std::size_t i) { most = std::max(most, places[i][0]); });
+      execution, indices.size(), [&](std::size_t i) { most = std::max(most, indices[i][0]); });
     const std::vector<std::size_t> order = orderByKeys(
-      execution, cells.size(), most + 1, [&](std::size_t i) { return places[i]; },
-      [](const Places& ofCorners) { return ofCorners[0]; });
+      execution, cells.size(), most + 1, [&](std::size_t i) { return indices[i]; },
+      [](const TreeIndices& ofCorners) { return ofCorners[0]; });
     forEachIndex(execution, order.size(),
       [&](std::size_t i)
       {
@@ -137,24 +148,23 @@ public:
       });
   }
 
-  /// Lists the cells that pass a test, if the dimension is 3. @returns their number
+  /// The crossing cells that pass a test, if the dimension is 3.
   template <class Test>
-  std::size_t list(const Execution& execution, const Test& test)
+  std::vector<CellHandle> crossingCells(const Execution& execution, const Test& test)
   {
-    this->Listed.clear();
     if (this->Cells.dimension() < 3)
     {
-      return 0;
+      return {};
     }
     if (this->All.empty())
     {
-      std::vector<Cell> all(this->Cells.tds().cells().size());
+      std::vector<CellHandle> all(this->Cells.tds().cells().size());
       auto next = this->Cells.all_cells_begin();
-      forEachInOrder(execution, all.size(), [&](std::size_t i) { all[i] = next++; });
+      forEachInOrder(execution, all.size(), [&](std::size_t i) { all[i] = handleOf(next++); });
       this->All = std::move(all);
     }
-    this->Listed = chosenThat(execution, this->All, test);
-    return this->Listed.size();
+    return chosenThat(execution, this->All,
+      [&](CellHandle cell) { return test(cellOf(cell)) && this->isCrossing(cellOf(cell)); });
   }
 
   bool isCrossing(Cell cell) const
@@ -214,8 +224,8 @@ PartialTriangulation::~PartialTriangulation()
 
 void PartialTriangulation::clear(const Execution& execution)
 {
-  this->dropLists();
-  this->Inside->Aims.clear();
+  this->Inside->All = std::vector<CellHandle>();
+  this->Inside->Targets.clear();
   this->Inside->Explored.clear();
   bool isAborted = false;
   std::exception_ptr failure; // destructors ask, which must not throw
@@ -231,11 +241,11 @@ void PartialTriangulation::clear(const Execution& execution)
       isAborted = true;
     }
   };
-  band::freesCells = &ask;
+  cgal::freesCells = &ask;
   this->Inside->Cells.tds().vertices().clear();
   ask();
   this->Inside->Cells.clear();
-  band::freesCells = nullptr;
+  cgal::freesCells = nullptr;
   if (failure)
   {
     std::rethrow_exception(failure);
@@ -246,13 +256,13 @@ void PartialTriangulation::clear(const Execution& execution)
   }
 }
 
-void PartialTriangulation::insert(const Execution& execution, const std::vector<BandSite>& sites,
+void PartialTriangulation::insert(const Execution& execution, const std::vector<Site>& sites,
   const std::function<void(double share)>& step)
 {
-  this->dropLists();
+  this->Inside->All = std::vector<CellHandle>();
   forEachInOrder(
     execution, sites.size(), [&](std::size_t i) { this->Inside->Unit.add(sites[i].position); });
-  band::Insertion(execution, this->Inside->Cells, sites, step).run();
+  cgal::Insertion(execution, this->Inside->Cells, sites, step).run();
 }
 
 void PartialTriangulation::setSides(
@@ -314,44 +324,59 @@ bool PartialTriangulation::raisesDimension(const Vector& position) const
   }
 }
 
-std::size_t PartialTriangulation::listOpenCells(const Execution& execution)
+std::vector<CellHandle> PartialTriangulation::openCells(const Execution& execution)
 {
-  return this->Inside->list(execution,
-    [this](Cell cell) { return !cell->info().isCertified && this->Inside->isCrossing(cell); });
+  return this->Inside->crossingCells(
+    execution, [](Cell cell) { return !cell->info().isCertified; });
 }
 
-bool PartialTriangulation::isBeyondHull(std::size_t openCell) const
+std::vector<CrossingTetrahedron> PartialTriangulation::crossingTetrahedra(
+  const Execution& execution)
 {
-  return this->Inside->infiniteIndexOf(this->Inside->Listed[openCell]) >= 0;
+  const std::vector<CellHandle> cells = this->Inside->crossingCells(
+    execution, [this](Cell cell) { return !this->Inside->isInfinite(cell); });
+  this->Inside->All = std::vector<CellHandle>(); // free the memory
+  return tabulated<CrossingTetrahedron>(execution, cells.size(),
+    [&](std::size_t i)
+    {
+      CrossingTetrahedron result = bySides(cellOf(cells[i]));
+      result.isAtHull = this->Inside->isCrossingAtHull(cellOf(cells[i]));
+      return result;
+    });
 }
 
-TetrahedronCorners PartialTriangulation::tetrahedronAt(std::size_t openCell) const
+bool PartialTriangulation::isBeyondHull(CellHandle cell) const
 {
-  const Cell cell = this->Inside->Listed[openCell];
+  return this->Inside->isInfinite(cellOf(cell));
+}
+
+TetrahedronCorners PartialTriangulation::tetrahedronOf(CellHandle handle) const
+{
+  const Cell cell = cellOf(handle);
   return { positionOf(cell->vertex(0)->point()), positionOf(cell->vertex(1)->point()),
     positionOf(cell->vertex(2)->point()), positionOf(cell->vertex(3)->point()) };
 }
 
-HullFacetCorners PartialTriangulation::hullFacetAt(std::size_t openCell) const
+HullFacetCorners PartialTriangulation::hullFacetOf(CellHandle handle) const
 {
   // For a hull facet, the position would replace the infinite vertex in the orientation.
   constexpr int facets[4][3] = { { 2, 1, 3 }, { 0, 2, 3 }, { 1, 0, 3 }, { 0, 1, 2 } };
-  const Cell cell = this->Inside->Listed[openCell];
+  const Cell cell = cellOf(handle);
   const int* const facet = facets[this->Inside->infiniteIndexOf(cell)];
   return { positionOf(cell->vertex(facet[0])->point()), positionOf(cell->vertex(facet[1])->point()),
     positionOf(cell->vertex(facet[2])->point()) };
 }
 
-bool PartialTriangulation::isInside(std::size_t openCell, const Vector& position) const
+bool PartialTriangulation::isInside(CellHandle cell, const Vector& position) const
 {
   constexpr bool decidesTies = true;
-  return this->Inside->Cells.side_of_sphere(
-           this->Inside->Listed[openCell], pointAt(position), decidesTies) == CGAL::ON_BOUNDED_SIDE;
+  return this->Inside->Cells.side_of_sphere(cellOf(cell), pointAt(position), decidesTies) ==
+         CGAL::ON_BOUNDED_SIDE;
 }
 
-void PartialTriangulation::certify(std::size_t openCell)
+void PartialTriangulation::certify(CellHandle cell)
 {
-  this->Inside->Listed[openCell]->info().isCertified = true;
+  cellOf(cell)->info().isCertified = true;
 }
 
 std::vector<bool> PartialTriangulation::areBelow(const std::vector<Vector>& positions) const
@@ -370,16 +395,17 @@ std::vector<bool> PartialTriangulation::areBelow(const std::vector<Vector>& posi
 }
 
 std::size_t PartialTriangulation::beginExploring(
-  const Execution& execution, const std::function<std::uint64_t(std::uint64_t leaf)>& placeOf)
+  const Execution& execution, const std::function<std::uint64_t(std::uint64_t leaf)>& treeIndexOf)
 {
   Internals& inside = *this->Inside;
   inside.Explored.clear();
-  inside.Aims.clear();
-  inside.list(execution, [&inside](Cell cell) { return inside.isCrossing(cell); });
-  forEachInOrder(execution, inside.Listed.size(),
-    [&inside](std::size_t i)
+  inside.Targets.clear();
+  const std::vector<CellHandle> crossing =
+    inside.crossingCells(execution, [](Cell) { return true; });
+  forEachInOrder(execution, crossing.size(),
+    [&](std::size_t i)
     {
-      const Cell cell = inside.Listed[i];
+      const Cell cell = cellOf(crossing[i]);
       const int infinite = inside.infiniteIndexOf(cell);
       if (infinite < 0)
       {
@@ -387,54 +413,52 @@ std::size_t PartialTriangulation::beginExploring(
       }
       else
       {
-        inside.Aims.emplace_back(cell, infinite);
+        inside.Targets.emplace_back(cell, infinite);
       }
     });
-  inside.orderExplored(execution, 0, placeOf);
+  inside.orderExplored(execution, 0, treeIndexOf);
   return inside.Explored.size();
 }
 
-void PartialTriangulation::aimAcross(const std::vector<ExploredFacet>& facets)
+void PartialTriangulation::targetAcross(const std::vector<ExploredFacet>& facets)
 {
-  this->Inside->Aims.clear();
+  this->Inside->Targets.clear();
   for (const ExploredFacet& facet : facets)
   {
-    this->Inside->Aims.emplace_back(this->Inside->Explored[facet.tetrahedron], facet.corner);
+    this->Inside->Targets.emplace_back(this->Inside->Explored[facet.tetrahedron], facet.corner);
   }
 }
 
-std::size_t PartialTriangulation::listOpenAims()
+std::vector<CellHandle> PartialTriangulation::openTargets() const
 {
-  std::vector<Cell>& open = this->Inside->Listed;
-  open.clear();
-  for (const auto& [cell, corner] : this->Inside->Aims)
+  std::vector<CellHandle> open;
+  for (const auto& [cell, corner] : this->Inside->Targets)
   {
-    const Cell aim = cell->neighbor(corner);
-    if (!aim->info().isCertified && !this->Inside->isInfinite(aim))
+    const Cell target = cell->neighbor(corner);
+    if (!target->info().isCertified && !this->Inside->isInfinite(target))
     {
-      open.push_back(aim);
+      open.push_back(handleOf(target));
     }
   }
-  std::sort(open.begin(), open.end());
-  open.erase(std::unique(open.begin(), open.end()), open.end());
-  return open.size();
+  keepUnique(open);
+  return open;
 }
 
-std::size_t PartialTriangulation::exploreAims(
-  const Execution& execution, const std::function<std::uint64_t(std::uint64_t leaf)>& placeOf)
+std::size_t PartialTriangulation::exploreTargets(
+  const Execution& execution, const std::function<std::uint64_t(std::uint64_t leaf)>& treeIndexOf)
 {
   Internals& inside = *this->Inside;
   const std::size_t first = inside.Explored.size();
-  for (const auto& [cell, corner] : inside.Aims)
+  for (const auto& [cell, corner] : inside.Targets)
   {
-    const Cell aim = cell->neighbor(corner);
-    if (!inside.isInfinite(aim) && inside.numberOf(aim) == unexplored)
+    const Cell target = cell->neighbor(corner);
+    if (!inside.isInfinite(target) && inside.numberOf(target) == unexplored)
     {
-      inside.explore(aim);
+      inside.explore(target);
     }
   }
-  inside.Aims.clear();
-  inside.orderExplored(execution, first, placeOf);
+  inside.Targets.clear();
+  inside.orderExplored(execution, first, treeIndexOf);
   return inside.Explored.size();
 }
 
@@ -482,26 +506,6 @@ ExploredFacet PartialTriangulation::wedgeEnd(
     next = std::exchange(passed, this->Inside->Cells.mirror_vertex(last, last->index(next)));
   }
   return { this->Inside->numberOf(cell), cell->index(next) };
-}
-
-std::size_t PartialTriangulation::listCrossingTetrahedra(const Execution& execution)
-{
-  return this->Inside->list(execution, [this](Cell cell)
-    { return this->Inside->isCrossing(cell) && !this->Inside->Cells.is_infinite(cell); });
-}
-
-void PartialTriangulation::dropLists()
-{
-  this->Inside->All = std::vector<Cell>();
-  this->Inside->Listed = std::vector<Cell>();
-}
-
-CrossingTetrahedron PartialTriangulation::crossingTetrahedronAt(std::size_t tetrahedron) const
-{
-  const Cell cell = this->Inside->Listed[tetrahedron];
-  CrossingTetrahedron result = bySides(cell);
-  result.isAtHull = this->Inside->isCrossingAtHull(cell);
-  return result;
 }
 
 } // namespace isopoint

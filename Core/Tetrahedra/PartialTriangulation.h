@@ -16,8 +16,8 @@
 namespace isopoint
 {
 
-/// A sample, or several coincident samples, as a vertex.
-struct BandSite
+/// A sample, or several coincident samples, to insert as a vertex.
+struct Site
 {
   Vector position;
   std::uint64_t leaf; // node index in the tree, below 2^63
@@ -54,6 +54,9 @@ struct FacetCorners
   bool isAllBelow() const { return this->areBelow[0] && this->areBelow[1] && this->areBelow[2]; }
 };
 
+/// A cell of a PartialTriangulation, until the next insertion.
+using CellHandle = struct OpaqueCell*;
+
 /// The Delaunay tetrahedralization of a growing subset of the samples, by CGAL. Predicates are
 /// exact. If more than four samples lie on an empty sphere, the lexicographic order of positions
 /// decides. Therefore the result, and whether a position lies inside a sphere, depend only on the
@@ -83,7 +86,7 @@ public:
   /// @param step(share) called from the calling thread every few milliseconds with the share done
   /// @throws Aborted and what step throws, with some samples added; std::bad_alloc, after which
   /// only destruction is allowed
-  void insert(const Execution& execution, const std::vector<BandSite>& sites,
+  void insert(const Execution& execution, const std::vector<Site>& sites,
     const std::function<void(double share)>& step);
 
   /// Sets the side of the isovalue of each sample. O(samples)
@@ -103,22 +106,29 @@ public:
 
   bool raisesDimension(const Vector& position) const;
 
-  /// Lists the crossing cells that are not certified, if the dimension is 3. Lists are valid until
-  /// the next insertion. @returns their number. O(cells)
+  /// The crossing cells that are not certified; none if the dimension is below 3. O(cells)
   /// @throws std::bad_alloc, Aborted
-  std::size_t listOpenCells(const Execution& execution);
+  std::vector<CellHandle> openCells(const Execution& execution);
 
-  /// Whether a listed cell is a facet of the hull; the corners of a listed tetrahedron or facet.
-  bool isBeyondHull(std::size_t openCell) const;
-  TetrahedronCorners tetrahedronAt(std::size_t openCell) const;
-  HullFacetCorners hullFacetAt(std::size_t openCell) const;
+  /// The crossing tetrahedra, in any order; none if the dimension is below 3. O(cells)
+  /// @throws std::bad_alloc, Aborted
+  std::vector<CrossingTetrahedron> crossingTetrahedra(const Execution& execution);
 
-  /// Whether a position, not of a corner, lies inside a listed cell's sphere; exact, decides ties.
-  /// From any thread.
-  bool isInside(std::size_t openCell, const Vector& position) const;
+  /// Whether a cell is a facet of the hull.
+  bool isBeyondHull(CellHandle cell) const;
 
-  /// Marks the sphere of a listed cell as empty. From any thread, once per cell.
-  void certify(std::size_t openCell);
+  /// The corners of a cell that is a tetrahedron.
+  TetrahedronCorners tetrahedronOf(CellHandle cell) const;
+
+  /// The corners of a cell that is a facet of the hull.
+  HullFacetCorners hullFacetOf(CellHandle cell) const;
+
+  /// Whether a position, not of a corner, lies inside a cell's sphere; exact, decides ties. From
+  /// any thread.
+  bool isInside(CellHandle cell, const Vector& position) const;
+
+  /// Marks the sphere of a cell as empty. From any thread, once per cell.
+  void certify(CellHandle cell);
 
   /// For each position in no crossing cell, whether the corners of its cell are below the isovalue.
   /// From any thread. Fastest if consecutive positions are close.
@@ -126,24 +136,24 @@ public:
 
   /// Explores the crossing tetrahedra, which must be certified, and nothing else; aims at the
   /// tetrahedra behind crossing facets of the hull. @returns the number of tetrahedra
-  /// @param placeOf(leaf) new tetrahedra are numbered in the order of these places, since that of
+  /// @param treeIndexOf(leaf) new tetrahedra are numbered in the order of these, since that of
   /// cells depends on threads and ranks
   /// @throws std::bad_alloc, Aborted
-  std::size_t beginExploring(
-    const Execution& execution, const std::function<std::uint64_t(std::uint64_t leaf)>& placeOf);
+  std::size_t beginExploring(const Execution& execution,
+    const std::function<std::uint64_t(std::uint64_t leaf)>& treeIndexOf);
 
-  /// Aims at the tetrahedra across facets of explored ones.
-  void aimAcross(const std::vector<ExploredFacet>& facets);
+  /// Targets at the tetrahedra across facets of explored ones.
+  void targetAcross(const std::vector<ExploredFacet>& facets);
 
   /// Lists the tetrahedra aimed at that are not certified as open cells, once each.
   /// @returns their number
-  std::size_t listOpenAims();
+  std::vector<CellHandle> openTargets() const;
 
   /// Explores the tetrahedra aimed at, which must be certified. @returns the number of all explored
-  /// @param placeOf see beginExploring()
+  /// @param treeIndexOf see beginExploring()
   /// @throws std::bad_alloc, Aborted
-  std::size_t exploreAims(
-    const Execution& execution, const std::function<std::uint64_t(std::uint64_t leaf)>& placeOf);
+  std::size_t exploreTargets(const Execution& execution,
+    const std::function<std::uint64_t(std::uint64_t leaf)>& treeIndexOf);
 
   /// Results of across() other than numbers of explored tetrahedra.
   static constexpr std::size_t outside = ~std::size_t{ 0 };
@@ -161,17 +171,6 @@ public:
   /// @param areInGap explored tetrahedra that are not in the body
   ExploredFacet wedgeEnd(
     const ExploredFacet& facet, std::size_t side, const std::vector<char>& areInGap) const;
-
-  /// Lists the crossing tetrahedra instead of open cells, in any order. @returns their number.
-  /// O(cells)
-  /// @throws std::bad_alloc, Aborted
-  std::size_t listCrossingTetrahedra(const Execution& execution);
-
-  /// Frees the memory of lists.
-  void dropLists();
-
-  /// A listed crossing tetrahedron. From any thread.
-  CrossingTetrahedron crossingTetrahedronAt(std::size_t tetrahedron) const;
 
 private:
   class Internals;

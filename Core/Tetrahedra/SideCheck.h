@@ -8,7 +8,6 @@
 #include "Core/Tree/CoincidentSamples.h"
 #include "Core/Tree/NodeMarks.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -25,10 +24,10 @@ class SideCheck
 {
 public:
   SideCheck(const Execution& execution, const SampleTree<TSample>& tree,
-    const PartialTriangulation& band, const NodeMarks& marks, LeafValues<TSample>& values)
-    : Exec(execution)
+    const PartialTriangulation& triangulation, const NodeMarks& marks, LeafValues<TSample>& values)
+    : Run(execution)
     , Tree(tree)
-    , Band(band)
+    , Triangulation(triangulation)
     , Marks(marks)
     , Values(values)
   {
@@ -43,20 +42,20 @@ public:
     const Summary root = this->collect(SampleTree<TSample>::rootNode, false);
     this->addUnlessKnown(root, SampleTree<TSample>::rootNode);
     constexpr std::size_t grain = 512;
-    return collected<std::size_t>(this->Exec, { this->Places.size(), 8 * grain, grain },
+    return collected<std::size_t>(this->Run, { this->Queries.size(), 8 * grain, grain },
       [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
       {
         std::vector<Vector> positions;
         for (std::size_t i = begin; i < end; ++i)
         {
-          positions.push_back(positionOf(this->Tree.samples[this->Places[i].sample]));
+          positions.push_back(positionOf(this->Tree.samples[this->Queries[i].sample]));
         }
-        const std::vector<bool> below = this->Band.areBelow(positions);
+        const std::vector<bool> below = this->Triangulation.areBelow(positions);
         for (std::size_t i = begin; i < end; ++i)
         {
-          if (below[i - begin] != this->Places[i].isBelow)
+          if (below[i - begin] != this->Queries[i].isBelow)
           {
-            found.push_back(this->Places[i].node);
+            found.push_back(this->Queries[i].node);
           }
         }
       });
@@ -70,7 +69,7 @@ private:
     bool isBelow; // the side, if clear
   };
 
-  struct Place
+  struct Query
   {
     std::size_t sample;
     std::size_t node; // without children, that contains the sample
@@ -83,14 +82,14 @@ private:
     constexpr std::size_t batch = 4096;
     if (this->Visits++ % batch == 0)
     {
-      throwIfAborted(this->Exec);
+      throwIfAborted(this->Run);
     }
     const Node<TSample>& node = this->Tree.nodes[nodeIndex];
     if (!this->Tree.hasOwn(node))
     {
       return { false, false, false };
     }
-    isReached = isReached || this->Marks.has(nodeIndex, bandmarks::reached);
+    isReached = isReached || this->Marks.has(nodeIndex, nodemarks::reached);
     if (!node.isSplit())
     {
       return this->collectEnd(nodeIndex, isReached);
@@ -98,8 +97,8 @@ private:
     const Summary lower = this->collect(node.lowerNode(), isReached);
     const Summary upper = this->collect(node.upperNode(), isReached);
     // The surface may pass through a child's region, but not through the box of its samples.
-    const bool isMissed = this->Marks.has(node.lowerNode(), bandmarks::missed) ||
-                          this->Marks.has(node.upperNode(), bandmarks::missed);
+    const bool isMissed = this->Marks.has(node.lowerNode(), nodemarks::missed) ||
+                          this->Marks.has(node.upperNode(), nodemarks::missed);
     if (lower.isClear && upper.isClear && lower.isBelow == upper.isBelow && !isMissed)
     {
       return { true, lower.isKnown || upper.isKnown, lower.isBelow };
@@ -116,7 +115,7 @@ private:
     // Nodes with samples on both sides are split down to leaves.
     const bool isBelow = node.isLeaf ? this->Values.at(nodeIndex) < this->Isovalue
                                      : static_cast<double>(node.minimum) < this->Isovalue;
-    const bool isKnown = node.isLeaf && this->Marks.has(nodeIndex, bandmarks::inBand);
+    const bool isKnown = node.isLeaf && this->Marks.has(nodeIndex, nodemarks::inserted);
     if (!isReached)
     {
       return { true, isKnown, isBelow };
@@ -125,7 +124,7 @@ private:
     {
       for (std::size_t i = node.begin; i < node.positionsEnd(); ++i)
       {
-        this->Places.push_back({ i, nodeIndex, isBelow });
+        this->Queries.push_back({ i, nodeIndex, isBelow });
       }
     }
     return { false, false, false };
@@ -141,18 +140,18 @@ private:
       {
         end = this->Tree.nodes[end].lowerNode();
       }
-      this->Places.push_back({ this->Tree.nodes[end].begin, end, summary.isBelow });
+      this->Queries.push_back({ this->Tree.nodes[end].begin, end, summary.isBelow });
     }
   }
 
-  const Execution& Exec;
+  const Execution& Run;
   const SampleTree<TSample>& Tree;
-  const PartialTriangulation& Band;
+  const PartialTriangulation& Triangulation;
   const NodeMarks& Marks;
   LeafValues<TSample>& Values;
   double Isovalue = 0.0;
   std::size_t Visits = 0; // of nodes
-  std::vector<Place> Places;
+  std::vector<Query> Queries;
 };
 
 } // namespace isopoint

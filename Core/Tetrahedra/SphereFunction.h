@@ -19,7 +19,7 @@ enum class Side
   Outside
 };
 
-/// A ball or half-space: the places x with F(x) < 0, where
+/// A ball or half-space: the points x with F(x) < 0, where
 ///
 ///     F(x) = d |y|^2 - 2 n . y,    y = scale * (x - origin),    d >= 0,
 ///
@@ -43,9 +43,9 @@ public:
     {
       this->Ahead[a] = 2.0 * (n[a] + nError[a]);
       this->Behind[a] = 2.0 * (n[a] - nError[a]);
-      this->LowestAhead[a] = placeOfLeast(this->Ahead[a], this->LowD);
-      this->LowestBehind[a] = placeOfLeast(this->Behind[a], this->LowD);
-      this->Center[a] = placeOfLeast(2.0 * n[a], this->LowD);
+      this->LowestAhead[a] = minimizer(this->Ahead[a], this->LowD);
+      this->LowestBehind[a] = minimizer(this->Behind[a], this->LowD);
+      this->Center[a] = minimizer(2.0 * n[a], this->LowD);
     }
   }
 
@@ -111,8 +111,8 @@ private:
   /// Exceeds all underflow in products: values of F are near 1 or 0.
   static constexpr double tiny = 1e-290;
 
-  /// The minimizer of d y^2 - b y.
-  static double placeOfLeast(double b, double d)
+  /// The y of the minimum of d y^2 - b y.
+  static double minimizer(double b, double d)
   {
     return b == 0.0 ? 0.0 : b / (2.0 * d); // infinite for half-spaces
   }

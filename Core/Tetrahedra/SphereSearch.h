@@ -21,11 +21,11 @@ namespace isopoint
 {
 
 /// The NodeMarks used to find crossing tetrahedra.
-namespace bandmarks
+namespace nodemarks
 {
 
 /// The leaf's samples are a vertex of the band.
-inline constexpr std::uint8_t inBand = 1;
+inline constexpr std::uint8_t inserted = 1;
 
 /// The sphere of a crossing tetrahedron may reach the region of this leaf, or of this unsplit node
 /// of few samples.
@@ -35,7 +35,7 @@ inline constexpr std::uint8_t reached = 2;
 /// or one farther beyond the hull was found.
 inline constexpr std::uint8_t missed = 4;
 
-} // namespace bandmarks
+} // namespace nodemarks
 
 /// The ball of a tetrahedron, with lower bounds of its function over boxes.
 class BallShape
@@ -140,10 +140,10 @@ public:
   /// @param boxes of the samples of some nodes, by index; computed on demand
   /// @param isHullWanted whether many cells are on the hull of all samples, so that boxes are worth
   /// their cost at once
-  SphereSearch(const SampleTree<TSample>& tree, const PartialTriangulation& band, NodeMarks& marks,
-    ConcurrentMemo<Region>& boxes, bool isHullWanted)
+  SphereSearch(const SampleTree<TSample>& tree, const PartialTriangulation& triangulation,
+    NodeMarks& marks, ConcurrentMemo<Region>& boxes, bool isHullWanted)
     : Tree(tree)
-    , Band(band)
+    , Triangulation(triangulation)
     , Marks(marks)
     , Boxes(boxes)
     , ManyVisits(isHullWanted ? 0 : 250)
@@ -151,17 +151,17 @@ public:
   {
   }
 
-  /// Finds a sample outside the band but inside the sphere of a listed cell, as above. Sets the
+  /// Finds a sample that is not inserted, inside the sphere of a cell, as above. Sets the
   /// marks above.
   /// @returns its leaf. Nothing means that there is none if isComplete()
-  std::optional<std::size_t> find(std::size_t openCell)
+  std::optional<std::size_t> find(CellHandle cell)
   {
-    this->Cell = openCell;
+    this->Cell = cell;
     this->UnsplitReached = 0;
     this->Begin = this->Visits;
-    return this->Band.isBeyondHull(openCell)
-             ? this->findIn(HullFacetShape(this->Band.hullFacetAt(openCell)))
-             : this->findIn(BallShape(this->Band.tetrahedronAt(openCell)));
+    return this->Triangulation.isBeyondHull(cell)
+             ? this->findIn(HullFacetShape(this->Triangulation.hullFacetOf(cell)))
+             : this->findIn(BallShape(this->Triangulation.tetrahedronOf(cell)));
   }
 
   /// Whether the last search, if it found nothing, saw all samples.
@@ -213,7 +213,7 @@ private:
     }
     if (node.isSplit() && this->isLong() && !this->mayReachSamples(nodeIndex, shape))
     {
-      this->Marks.set(nodeIndex, bandmarks::missed);
+      this->Marks.set(nodeIndex, nodemarks::missed);
       return false;
     }
     if (!node.isSplit())
@@ -279,8 +279,8 @@ private:
     const Node<TSample>& node = this->Tree.nodes[nodeIndex];
     if (node.isLeaf)
     {
-      this->Marks.set(nodeIndex, bandmarks::reached);
-      if (this->Marks.has(nodeIndex, bandmarks::inBand) || !this->isInside(shape, node.begin))
+      this->Marks.set(nodeIndex, nodemarks::reached);
+      if (this->Marks.has(nodeIndex, nodemarks::inserted) || !this->isInside(shape, node.begin))
       {
         return false;
       }
@@ -302,7 +302,7 @@ private:
     }
     else
     {
-      this->Marks.set(nodeIndex, bandmarks::reached);
+      this->Marks.set(nodeIndex, nodemarks::reached);
     }
     return this->UnsplitReached >= manyUnsplit;
   }
@@ -320,18 +320,18 @@ private:
     {
       constexpr std::size_t visitsForExact = 50;
       this->Visits += visitsForExact;
-      return this->Band.isInside(this->Cell, position);
+      return this->Triangulation.isInside(this->Cell, position);
     }
     return side == Side::Inside;
   }
 
   const SampleTree<TSample>& Tree;
-  const PartialTriangulation& Band;
+  const PartialTriangulation& Triangulation;
   NodeMarks& Marks;
   ConcurrentMemo<Region>& Boxes;
   const std::size_t ManyVisits;
   const std::size_t ManySamples;
-  std::size_t Cell = 0;
+  CellHandle Cell = nullptr;
   std::optional<std::size_t> Found;
   std::size_t Visits = 0;
   std::size_t Begin = 0; // visits before this search

@@ -12,7 +12,7 @@
 #include <array>
 #include <cmath>
 
-namespace isopoint::band
+namespace isopoint::cgal
 {
 
 using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
@@ -139,14 +139,14 @@ private:
   const CoordinateUnit* Unit;
 };
 
-} // namespace isopoint::band
+} // namespace isopoint::cgal
 
 namespace CGAL
 {
 
 /// Locates points in the same way as the base kernel.
 template <>
-struct Triangulation_structural_filtering_traits<isopoint::band::Kernel>
+struct Triangulation_structural_filtering_traits<isopoint::cgal::Kernel>
   : Triangulation_structural_filtering_traits<Exact_predicates_inexact_constructions_kernel>
 {
 };

@@ -72,19 +72,19 @@ constexpr BinaryIndex ancestorOf(const BinaryIndex& node, int levels)
            : BinaryIndex{ 0, node.high >> (levels - bits) };
 }
 
-/// The place of the highest set bit: floor(log2 number), for number > 0.
+/// The index of the highest set bit: floor(log2 number), for number > 0.
 constexpr int highestBit(std::uint64_t number)
 {
-  int place = 0;
+  int bit = 0;
   for (int step = 32; step > 0; step /= 2)
   {
     if (number >> step != 0)
     {
       number >>= step;
-      place += step;
+      bit += step;
     }
   }
-  return place;
+  return bit;
 }
 
 /// Levels below the root, for node != 0.

@@ -7,7 +7,6 @@
 #include "Core/Base/Region.h"
 #include "Core/Tree/SampleTree.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <mutex>
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "Core/Base/Execution.h"
-#include "Core/Base/Lists.h"
 #include "Core/Base/RawArray.h"
 #include "Core/Base/Region.h"
+#include "Core/Base/Sorting.h"
 #include "Core/Base/Vector.h"
 #include "Core/Tree/BinaryIndex.h"
 
@@ -119,8 +119,8 @@ struct SampleTree
   double valueError = 0.0;   // least standard error of each value, as by rounding
 
   /// A tree shared among ranks: each rank owns the samples [ownBegin, ownEnd) and has copies of
-  /// some others. `samples` has room for all; pages without samples are never touched. Split nodes
-  /// are at the same place in the trees of all ranks.
+  /// some others. `samples` has room for all; pages without samples are never touched. Nodes that
+  /// several ranks have split have the same plane on all of them.
   bool isPartial = false;
   std::size_t ownBegin = 0;
   std::size_t ownEnd = std::numeric_limits<std::size_t>::max();
@@ -141,8 +141,12 @@ struct SampleTree
     return node.begin >= this->ownBegin && node.end <= this->ownEnd;
   }
 
-  /// Whether this rank owns the sample at a place in tree order.
-  bool isOwn(std::size_t place) const { return place >= this->ownBegin && place < this->ownEnd; }
+  /// Whether this rank owns the sample with a *tree index*: an index into `samples`, the same on
+  /// all ranks.
+  bool isOwn(std::size_t treeIndex) const
+  {
+    return treeIndex >= this->ownBegin && treeIndex < this->ownEnd;
+  }
 
   std::size_t ownCount() const
   {

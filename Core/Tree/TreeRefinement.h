@@ -4,6 +4,7 @@
 #include "Core/Base/Execution.h"
 #include "Core/Base/Lists.h"
 #include "Core/Base/Region.h"
+#include "Core/Base/Sorting.h"
 #include "Core/Tree/Path.h"
 #include "Core/Tree/TreeletSplitting.h"
 

@@ -13,13 +13,13 @@ namespace isopoint
 namespace
 {
 
-bool isInverted(double before, double after)
+bool changesSign(double before, double after)
 {
   return (before > 0.0 && !(after > 0.0)) || (before < 0.0 && !(after < 0.0));
 }
 
 /// Whether a triangle of three vertices faces away when they are at other positions.
-bool isTurned(const std::vector<Vector>& before, const std::vector<Vector>& after,
+bool isInverted(const std::vector<Vector>& before, const std::vector<Vector>& after,
   const SurfaceTriangle& triangle)
 {
   return dot(areaNormal(before, triangle), areaNormal(after, triangle)) < 0.0;
@@ -36,7 +36,7 @@ std::vector<char> areOfInverted(const Execution& execution, const std::vector<Ve
   const std::vector<double> others = volumesOf(execution, pieces, moved, after);
   return tabulated<char>(execution, pieces.size(),
     [&](std::size_t vertex)
-    { return isInverted(volumes[pieces[vertex]], others[pieces[vertex]]); });
+    { return changesSign(volumes[pieces[vertex]], others[pieces[vertex]]); });
 }
 
 /// The triangles whose first corner has a mark, or those whose has none.
@@ -78,7 +78,7 @@ void restoreInvertedPieces(
     [&](std::size_t vertex)
     {
       const std::size_t piece = exactPieceOf(vertex);
-      if (after[vertex] == vertex && isInverted(exactVolumes[piece], volumes[vertex]))
+      if (after[vertex] == vertex && changesSign(exactVolumes[piece], volumes[vertex]))
       {
         areInverted[piece] = 1;
         isAny = true;
@@ -96,13 +96,13 @@ void restoreInvertedPieces(
   merged.caps = marked(execution, merged.caps, areKept, true);
   merged = inOrder(execution, merged, markedOf(execution, areKept));
   const std::vector<std::size_t> restored = markedOf(execution, areRestored);
-  const std::vector<std::size_t> places = placesIn(execution, restored, areRestored.size());
+  const std::vector<std::size_t> numbers = inverseOf(execution, restored, areRestored.size());
   const auto append = [&, keptCount = merged.size()](
                         const std::vector<SurfaceTriangle>& exactOnes, auto& triangles)
   {
     triangles = joined(std::move(triangles),
       renumbered(
-        execution, marked(execution, exactOnes, areRestored, true), places, restored.size()),
+        execution, marked(execution, exactOnes, areRestored, true), numbers, restored.size()),
       keptCount);
   };
   append(exact.triangles, merged.triangles);
@@ -126,14 +126,14 @@ void keepBodiesOriented(const Execution& execution, const std::vector<Vector>& u
     fits[vertex].order.reset();
     fits[vertex].position = positions[vertex] = unmoved[vertex];
   };
-  const auto turnedCaps = [&]()
+  const auto invertedCaps = [&]()
   {
     return chosenThat(execution, caps,
-      [&](const SurfaceTriangle& cap) { return isTurned(unmoved, positions, cap); });
+      [&](const SurfaceTriangle& cap) { return isInverted(unmoved, positions, cap); });
   };
-  for (std::vector<SurfaceTriangle> turned = turnedCaps(); !turned.empty(); turned = turnedCaps())
+  for (auto inverted = invertedCaps(); !inverted.empty(); inverted = invertedCaps())
   {
-    for (const SurfaceTriangle& cap : turned)
+    for (const SurfaceTriangle& cap : inverted)
     {
       std::for_each(cap.begin(), cap.end(), revert);
     }

@@ -7,6 +7,7 @@
 #include "Core/Neighbors/GapSpread.h"
 #include "Core/Neighbors/VoidCriterion.h"
 #include "Core/Tetrahedra/CrossingTetrahedra.h"
+#include "Core/Triangles/CapFacet.h"
 #include "Core/Triangles/TetrahedronEdges.h"
 
 #include <algorithm>
@@ -18,15 +19,6 @@
 
 namespace isopoint
 {
-
-/// A facet at the border of a body: between a tetrahedron of the body and a gap or the outside. At
-/// least one corner is not below the isovalue.
-struct CapFacet : FacetCorners
-{
-  /// Per side, from a corner to the next: the cap facet that is met by turning around this side
-  /// through the body. Undefined for a side with both ends below.
-  std::array<std::size_t, 3> partners;
-};
 
 /// What the surface of a body is made of: docs/triangles.md, "Bodies".
 struct BodyTetrahedra
@@ -44,7 +36,7 @@ class ExploredTetrahedra
 public:
   ExploredTetrahedra(const Execution& execution, const SampleTree<TSample>& tree,
     CrossingTetrahedraFinder<TSample, TRanks>& finder)
-    : Exec(execution)
+    : Run(execution)
     , Tree(tree)
     , Finder(finder)
   {
@@ -53,8 +45,8 @@ public:
   /// Explores the crossing tetrahedra and those behind facets of the hull.
   void begin()
   {
-    this->Finder.triangulation().beginExploring(this->Exec, this->placeOfLeaf());
-    this->exploreAims();
+    this->Finder.triangulation().beginExploring(this->Run, this->treeIndexOfLeaf());
+    this->exploreTargets();
   }
 
   std::size_t size() const { return this->Count; }
@@ -77,8 +69,8 @@ public:
       });
     if (!facets.empty())
     {
-      this->Finder.triangulation().aimAcross(facets);
-      this->exploreAims();
+      this->Finder.triangulation().targetAcross(facets);
+      this->exploreTargets();
       // The number of steps is unknown.
       constexpr double share = 0.1; // of the remaining progress
       this->Progress += share * (1.0 - this->Progress);
@@ -128,20 +120,20 @@ public:
   const PartialTriangulation& cells() const { return this->Finder.triangulation(); }
 
 private:
-  void exploreAims()
+  void exploreTargets()
   {
-    this->Finder.certifyAims();
-    this->Count = this->Finder.triangulation().exploreAims(this->Exec, this->placeOfLeaf());
+    this->Finder.certifyTargets();
+    this->Count = this->Finder.triangulation().exploreTargets(this->Run, this->treeIndexOfLeaf());
   }
 
   /// The order of new tetrahedra: the same for any number of threads and ranks.
-  std::function<std::uint64_t(std::uint64_t)> placeOfLeaf() const
+  std::function<std::uint64_t(std::uint64_t)> treeIndexOfLeaf() const
   {
     return [this](std::uint64_t leaf) -> std::uint64_t
     { return this->Tree.nodes[static_cast<std::size_t>(leaf)].begin; };
   }
 
-  const Execution& Exec;
+  const Execution& Run;
   const SampleTree<TSample>& Tree;
   CrossingTetrahedraFinder<TSample, TRanks>& Finder;
   std::size_t Count = 0;
@@ -158,11 +150,12 @@ class BodyFinder
 public:
   BodyFinder(const Execution& execution, const SampleTree<TSample>& tree, TRanks& ranks,
     CrossingTetrahedraFinder<TSample, TRanks>& finder)
-    : Exec(execution)
+    : Run(execution)
     , Ranks(ranks)
     , Finder(finder)
     , Explored(execution, tree, finder)
-    , Edges(execution, tree, ranks)
+    , Edges(execution, tree, ranks,
+        [this](std::size_t i) { return this->cells().exploredTetrahedron(i).corners; })
   {
   }
 
@@ -190,29 +183,20 @@ private:
 
   const PartialTriangulation& cells() const { return this->Explored.cells(); }
 
-  template <class TCriterion>
-  std::vector<std::size_t> rejectedAmong(
-    const TCriterion& criterion, const std::vector<std::size_t>& some)
-  {
-    return this->Edges.rejectedAmong(criterion, some,
-      [this](std::size_t tetrahedron)
-      { return this->cells().exploredTetrahedron(tetrahedron).corners; });
-  }
-
   /// Explores the weak tetrahedra connected with the isosurface or the hull; those connected with a
   /// strong one among them are in gaps.
   void findGaps()
   {
-    Spread ofWeak(this->Exec, this->Ranks, this->Explored);
+    Spread ofWeak(this->Run, this->Ranks, this->Explored);
     ofWeak.spread(numbersBelow(this->Explored.size()), [this](const std::vector<std::size_t>& some)
-      { return this->rejectedAmong(weakVoids(), some); });
+      { return this->Edges.rejectedAmong(weakVoids(), some); });
     const std::vector<char> areWeak = ofWeak.takeInGap();
-    Spread ofStrong(this->Exec, this->Ranks, this->Explored);
-    ofStrong.spread(this->rejectedAmong(strongVoids(), markedOf(this->Exec, areWeak)),
+    Spread ofStrong(this->Run, this->Ranks, this->Explored);
+    ofStrong.spread(this->Edges.rejectedAmong(strongVoids(), markedOf(this->Run, areWeak)),
       [&](const std::vector<std::size_t>& some)
       {
-        return chosenOf(this->Exec, some,
-          itemsThat(this->Exec, some.size(), [&](std::size_t i) { return areWeak[some[i]] != 0; }));
+        return chosenOf(this->Run, some,
+          itemsThat(this->Run, some.size(), [&](std::size_t i) { return areWeak[some[i]] != 0; }));
       });
     ofStrong.dropFragments();
     this->IsInGap = ofStrong.takeInGap();
@@ -223,7 +207,7 @@ private:
     body.droppedCount =
       static_cast<std::size_t>(std::count(this->IsInGap.begin(), this->IsInGap.end(), char{ 1 }));
     std::vector<ExploredFacet> facets;
-    forEachInOrder(this->Exec, this->IsInGap.size(),
+    forEachInOrder(this->Run, this->IsInGap.size(),
       [&](std::size_t tetrahedron)
       {
         if (this->IsInGap[tetrahedron])
@@ -255,7 +239,7 @@ private:
     const auto isBefore = [](const ExploredFacet& a, const ExploredFacet& b) {
       return a.tetrahedron != b.tetrahedron ? a.tetrahedron < b.tetrahedron : a.corner < b.corner;
     };
-    return tabulated<CapFacet>(this->Exec, facets.size(),
+    return tabulated<CapFacet>(this->Run, facets.size(),
       [&](std::size_t i)
       {
         CapFacet cap{ this->cells().cornersOf(facets[i]), {} };
@@ -272,7 +256,7 @@ private:
       });
   }
 
-  const Execution& Exec;
+  const Execution& Run;
   TRanks& Ranks;
   CrossingTetrahedraFinder<TSample, TRanks>& Finder;
   ExploredTetrahedra<TSample, TRanks> Explored;

@@ -42,7 +42,7 @@ bool CapRim::isMergeable(const VertexParts& parts, std::size_t part) const
   return rimCount == 0 || (leavingCount == 2 && cornerCount <= 1);
 }
 
-std::size_t CapRim::placeOf(const VertexParts& parts, std::size_t part) const
+std::size_t CapRim::vertexOf(const VertexParts& parts, std::size_t part) const
 {
   if (this->Kinds.empty())
   {

@@ -32,9 +32,9 @@ public:
   /// Whether a part may become one vertex: its rim, if any, is one path with at most one corner.
   bool isMergeable(const VertexParts& parts, std::size_t part) const;
 
-  /// The vertex of a part where it merges: on the rim, its corner, or else the one nearest to the
+  /// The vertex that a part becomes: on the rim, its corner, or else the one nearest to the
   /// mean. VertexParts::none for a part that is not on the rim.
-  std::size_t placeOf(const VertexParts& parts, std::size_t part) const;
+  std::size_t vertexOf(const VertexParts& parts, std::size_t part) const;
 
 private:
   enum class Kind : char

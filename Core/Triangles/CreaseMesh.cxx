@@ -32,22 +32,22 @@ Vector CreaseSurface::normalOf(std::initializer_list<std::size_t> vertices) cons
 }
 
 std::size_t CreaseSurface::addVertex(
-  std::size_t like, const Vector& place, std::initializer_list<std::size_t> around)
+  std::size_t like, const Vector& position, std::initializer_list<std::size_t> around)
 {
   double slope = 0.0;
   for (const std::size_t each : around)
   {
     slope += lengthOf(this->fitOf(each).gradient) / static_cast<double>(around.size());
   }
-  return this->addVertex(like, place, this->normalOf(around), slope);
+  return this->addVertex(like, position, this->normalOf(around), slope);
 }
 
 std::size_t CreaseSurface::addVertex(
-  std::size_t like, const Vector& place, const Vector& normal, double slope)
+  std::size_t like, const Vector& position, const Vector& normal, double slope)
 {
   const std::size_t vertex = this->surface.size();
   LocalFit fit = this->surface.fits[like];
-  fit.position = place;
+  fit.position = position;
   fit.gradient = -slope * normal;
   fit.hessian = {};
   fit.isSmooth = false;
@@ -60,7 +60,7 @@ std::size_t CreaseSurface::addVertex(
   {
     this->surface.edgeBegins.push_back(this->surface.edges.size());
   }
-  this->surface.positions.push_back(place);
+  this->surface.positions.push_back(position);
   this->surface.decreasingEdges.emplace_back(this->surface.decreasingEdges[like]);
   this->surface.fits.push_back(std::move(fit));
   this->normals.push_back(normal);
@@ -201,7 +201,7 @@ class CreaseMesher
 public:
   CreaseMesher(
     const Execution& execution, Isosurface& surface, std::vector<SurfaceTriangle>& triangles)
-    : Exec(execution)
+    : Run(execution)
     , Whole(execution, surface)
     , Triangles(triangles)
   {
@@ -215,17 +215,17 @@ public:
       return;
     }
     const std::size_t firstOnCrease = this->Whole.surface.size();
-    facets = splitAtCreases(this->Exec, this->Whole, facets);
-    facets = untangleFacets(this->Exec, this->Whole, facets, firstOnCrease);
+    facets = splitAtCreases(this->Run, this->Whole, facets);
+    facets = untangleFacets(this->Run, this->Whole, facets, firstOnCrease);
     if (request.regularizes)
     {
-      facets = withoutShortEdges(this->Exec, this->Whole, std::move(facets));
+      facets = withoutShortEdges(this->Run, this->Whole, std::move(facets));
     }
     if (request.duplicatesCreaseVertices)
     {
       this->partCreases(facets);
     }
-    forEachInOrder(this->Exec, facets.size(),
+    forEachInOrder(this->Run, facets.size(),
       [&](std::size_t i) { this->Triangles.push_back(facets[i].corners); });
     this->order();
   }
@@ -235,22 +235,22 @@ private:
   std::vector<Facet> takeFacets()
   {
     const std::vector<char> areNear =
-      areAtCreases(this->Exec, this->Whole.surface.fits, this->Triangles);
+      areAtCreases(this->Run, this->Whole.surface.fits, this->Triangles);
     this->Whole.isInner.assign(areNear.begin(), areNear.end());
     const auto isTaken = [&](const SurfaceTriangle& triangle)
     { return areNear[triangle[0]] || areNear[triangle[1]] || areNear[triangle[2]]; };
-    const std::vector<SurfaceTriangle> taken = chosenThat(this->Exec, this->Triangles, isTaken);
-    this->Triangles = chosenThat(this->Exec, this->Triangles,
+    const std::vector<SurfaceTriangle> taken = chosenThat(this->Run, this->Triangles, isTaken);
+    this->Triangles = chosenThat(this->Run, this->Triangles,
       [&](const SurfaceTriangle& triangle) { return !isTaken(triangle); });
     return tabulated<Facet>(
-      this->Exec, taken.size(), [&](std::size_t i) { return this->Whole.facetOf(taken[i]); });
+      this->Run, taken.size(), [&](std::size_t i) { return this->Whole.facetOf(taken[i]); });
   }
 
   /// Duplicates vertices between pieces. A piece's copy has the normal of its first facet.
   void partCreases(std::vector<Facet>& facets)
   {
     std::map<std::size_t, std::vector<std::size_t>> copies; // of each vertex
-    forEachInOrder(this->Exec, facets.size(),
+    forEachInOrder(this->Run, facets.size(),
       [&](std::size_t i)
       {
         Facet& facet = facets[i];
@@ -273,9 +273,9 @@ private:
         return copy;
       }
     }
-    const Vector place = this->Whole.surface.positions[vertex]; // adding reallocates
-    copies.push_back(
-      this->Whole.addVertex(vertex, place, normal, lengthOf(this->Whole.fitOf(vertex).gradient)));
+    const Vector position = this->Whole.surface.positions[vertex]; // adding reallocates
+    copies.push_back(this->Whole.addVertex(
+      vertex, position, normal, lengthOf(this->Whole.fitOf(vertex).gradient)));
     return copies.back();
   }
 
@@ -283,16 +283,16 @@ private:
   void order()
   {
     Isosurface& surface = this->Whole.surface;
-    const std::vector<std::size_t> kept = verticesOf(this->Exec, this->Triangles, surface.size());
+    const std::vector<std::size_t> kept = verticesOf(this->Run, this->Triangles, surface.size());
     this->Triangles = renumbered(
-      this->Exec, this->Triangles, placesIn(this->Exec, kept, surface.size()), kept.size());
+      this->Run, this->Triangles, inverseOf(this->Run, kept, surface.size()), kept.size());
     if (kept.size() < surface.size())
     {
-      surface = chosenIsopoints(this->Exec, surface, kept);
+      surface = chosenIsopoints(this->Run, surface, kept);
     }
   }
 
-  const Execution& Exec;
+  const Execution& Run;
   CreaseSurface Whole;
   std::vector<SurfaceTriangle>& Triangles;
 };

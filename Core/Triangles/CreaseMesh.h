@@ -44,8 +44,9 @@ struct CreaseSurface
   /// @param like the vertex whose edge is copied
   /// @param around vertices whose mean normal it gets
   std::size_t addVertex(
-    std::size_t like, const Vector& place, std::initializer_list<std::size_t> around);
-  std::size_t addVertex(std::size_t like, const Vector& place, const Vector& normal, double slope);
+    std::size_t like, const Vector& position, std::initializer_list<std::size_t> around);
+  std::size_t addVertex(
+    std::size_t like, const Vector& position, const Vector& normal, double slope);
 
   Isosurface& surface;
   std::vector<Vector> normals; // to decreasing values

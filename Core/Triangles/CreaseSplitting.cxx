@@ -2,6 +2,7 @@
 #include "Core/Triangles/CreaseMesh.h"
 
 #include "Core/Base/Lists.h"
+#include "Core/Base/Sorting.h"
 #include "Core/Fit/SurfacePiece.h"
 
 #include <algorithm>
@@ -28,7 +29,7 @@ class CreaseSplitter
 {
 public:
   CreaseSplitter(const Execution& execution, CreaseSurface& whole)
-    : Exec(execution)
+    : Run(execution)
     , Whole(whole)
   {
   }
@@ -36,8 +37,8 @@ public:
   /// Merges lost vertices with the nearest neighbor that inverts no triangle. Sets Pieces.
   std::vector<Facet> withoutLost(const std::vector<Facet>& facets)
   {
-    FacetMesh mesh(this->Exec, this->Whole.surface.positions, this->Whole.isInner, facets);
-    forEachInOrder(this->Exec, this->Whole.isInner.size(),
+    FacetMesh mesh(this->Run, this->Whole.surface.positions, this->Whole.isInner, facets);
+    forEachInOrder(this->Run, this->Whole.isInner.size(),
       [&](std::size_t vertex)
       {
         if (this->Whole.isInner[vertex] &&
@@ -46,7 +47,7 @@ public:
           this->mergeWithNearest(mesh, vertex);
         }
       });
-    this->Pieces = tabulated<std::size_t>(this->Exec, this->Whole.isInner.size(),
+    this->Pieces = tabulated<std::size_t>(this->Run, this->Whole.isInner.size(),
       [&](std::size_t vertex)
       { return this->Whole.isInner[vertex] ? this->pieceOf(mesh, vertex) : vertex; });
     return mesh.facets();
@@ -54,7 +55,7 @@ public:
 
   std::vector<Facet> split(const std::vector<Facet>& facets)
   {
-    this->Edges = collectedFromEach<Edge>(this->Exec, 3 * facets.size(),
+    this->Edges = collectedFromEach<Edge>(this->Run, 3 * facets.size(),
       [&](HalfEdge side, std::vector<Edge>& found)
       {
         const SurfaceTriangle& corners = facets[side / 3].corners;
@@ -64,30 +65,30 @@ public:
           found.push_back(edge);
         }
       });
-    this->Edges = sortedUnique(this->Exec, this->Edges, this->Whole.surface.size(),
+    this->Edges = sortedUnique(this->Run, this->Edges, this->Whole.surface.size(),
       [](const Edge& edge) { return static_cast<std::uint64_t>(edge.first); });
-    std::vector<std::optional<Vector>> places(this->Edges.size());
-    forBatches(this->Exec, places.size(), 256, 64,
+    std::vector<std::optional<Vector>> onEdges(this->Edges.size());
+    forBatches(this->Run, onEdges.size(), 256, 64,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t i = begin; i < end; ++i)
         {
-          places[i] = this->placeOnCrease(this->Edges[i].first, this->Edges[i].second);
+          onEdges[i] = this->positionOnCrease(this->Edges[i].first, this->Edges[i].second);
         }
       });
-    this->OnEdges.resize(places.size());
-    forEachInOrder(this->Exec, places.size(),
+    this->OnEdges.resize(onEdges.size());
+    forEachInOrder(this->Run, onEdges.size(),
       [&](std::size_t i)
       {
-        if (places[i])
+        if (onEdges[i])
         {
           const auto& [a, b] = this->Edges[i];
-          this->OnEdges[i] = this->Whole.addVertex(a, *places[i], { a, b });
+          this->OnEdges[i] = this->Whole.addVertex(a, *onEdges[i], { a, b });
         }
       });
     std::vector<Facet> parts;
     forEachInOrder(
-      this->Exec, facets.size(), [&](std::size_t i) { this->addParts(facets[i], parts); });
+      this->Run, facets.size(), [&](std::size_t i) { this->addParts(facets[i], parts); });
     return parts;
   }
 
@@ -102,7 +103,7 @@ private:
       count += onEdges[i] ? 1 : 0;
     }
     // Rotates the corner that differs to the front.
-    const auto turnedTo = [&](std::size_t first)
+    const auto rotatedTo = [&](std::size_t first)
     {
       return std::array{ facet.corners[first], facet.corners[(first + 1) % 3],
         facet.corners[(first + 2) % 3] };
@@ -116,7 +117,7 @@ private:
       const auto edge = static_cast<std::size_t>(
         std::find_if(onEdges.begin(), onEdges.end(), [](const auto& each) { return each; }) -
         onEdges.begin());
-      const auto [a, b, c] = turnedTo(edge);
+      const auto [a, b, c] = rotatedTo(edge);
       parts.push_back({ { a, *onEdges[edge], c }, this->Whole.normalOf({ a, c }) });
       parts.push_back({ { *onEdges[edge], b, c }, this->Whole.normalOf({ b, c }) });
     }
@@ -125,7 +126,7 @@ private:
       const auto whole = static_cast<std::size_t>(
         std::find_if(onEdges.begin(), onEdges.end(), [](const auto& each) { return !each; }) -
         onEdges.begin());
-      const auto [a, b, c] = turnedTo((whole + 2) % 3);
+      const auto [a, b, c] = rotatedTo((whole + 2) % 3);
       this->addTwoPieces(a, b, c, *onEdges[(whole + 2) % 3], *onEdges[(whole + 1) % 3], parts);
     }
     else
@@ -159,9 +160,9 @@ private:
   {
     const auto& [a, b, c] = corners;
     const auto& [ab, bc, ca] = onEdges;
-    if (const std::optional<Vector> place = this->placeOfCorner(corners))
+    if (const std::optional<Vector> position = this->positionOfCorner(corners))
     {
-      const std::size_t corner = this->Whole.addVertex(a, *place, { a, b, c });
+      const std::size_t corner = this->Whole.addVertex(a, *position, { a, b, c });
       for (const auto& [piece, from, to] :
         { std::array{ a, ca, ab }, std::array{ b, ab, bc }, std::array{ c, bc, ca } })
       {
@@ -176,16 +177,16 @@ private:
     parts.push_back({ { ab, bc, ca }, this->Whole.normalOf({ a, b, c }) });
   }
 
-  std::optional<Vector> placeOfCorner(const SurfaceTriangle& corners) const
+  std::optional<Vector> positionOfCorner(const SurfaceTriangle& corners) const
   {
     const auto& [a, b, c] = corners;
     const std::vector<Vector>& positions = this->Whole.surface.positions;
     const Vector center = 1.0 / 3.0 * (positions[a] + positions[b] + positions[c]);
-    const Vector place = meetingOf(this->piecesAt({ a, b, c }), center);
+    const Vector position = meetingOf(this->piecesAt({ a, b, c }), center);
     const double longest = std::max({ lengthOf(positions[a] - positions[b]),
       lengthOf(positions[b] - positions[c]), lengthOf(positions[c] - positions[a]) });
-    return isFinite(place) && lengthOf(place - center) <= maxCornerOffset * longest
-             ? std::optional(place)
+    return isFinite(position) && lengthOf(position - center) <= maxCornerOffset * longest
+             ? std::optional(position)
              : std::nullopt;
   }
 
@@ -311,7 +312,7 @@ private:
   }
 
   /// The crossing of the crease by an edge that follows both pieces.
-  std::optional<Vector> placeOnCrease(std::size_t a, std::size_t b) const
+  std::optional<Vector> positionOnCrease(std::size_t a, std::size_t b) const
   {
     const Vector& p = this->Whole.surface.positions[a];
     const Vector& q = this->Whole.surface.positions[b];
@@ -319,9 +320,9 @@ private:
     const Vector center = 0.5 * (p + q);
     const Vector meeting = meetingOf(pieces, center);
     const Vector along = directionOf(cross(this->Whole.normals[a], this->Whole.normals[b]));
-    const auto offsetOf = [&](const Vector& place)
+    const auto offsetOf = [&](const Vector& position)
     {
-      const Vector offset = place - meeting;
+      const Vector offset = position - meeting;
       const double shift = dot(offset, along);
       return std::pair(shift, lengthOf(offset - shift * along));
     };
@@ -329,10 +330,11 @@ private:
     const auto [qShift, qOff] = offsetOf(q);
     const double off = pOff + qOff;
     const double shift = off > 0.0 ? (pShift * qOff + qShift * pOff) / off : 0.0;
-    const Vector place = meetingOf(pieces, meeting + shift * along);
+    const Vector position = meetingOf(pieces, meeting + shift * along);
     const double length = lengthOf(q - p);
-    return isFinite(place) && lengthOf(place - center) <= maxOffset * length ? std::optional(place)
-                                                                             : std::nullopt;
+    return isFinite(position) && lengthOf(position - center) <= maxOffset * length
+             ? std::optional(position)
+             : std::nullopt;
   }
 
   std::optional<std::size_t> vertexOnCrease(std::size_t a, std::size_t b) const
@@ -344,7 +346,7 @@ private:
              : std::nullopt;
   }
 
-  const Execution& Exec;
+  const Execution& Run;
   CreaseSurface& Whole;
   std::vector<std::size_t> Pieces; // the vertex whose fit describes a vertex's piece
   std::vector<Edge> Edges;         // across creases, ordered

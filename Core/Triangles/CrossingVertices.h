@@ -3,11 +3,12 @@
 
 #include "Core/Base/Execution.h"
 #include "Core/Base/Lists.h"
+#include "Core/Base/Sorting.h"
 #include "Core/Base/Vector.h"
 #include "Core/Extraction/Isosurface.h"
 #include "Core/Tetrahedra/PartialTriangulation.h"
 #include "Core/Tree/CoincidentSamples.h"
-#include "Core/Triangles/BodyTetrahedra.h"
+#include "Core/Triangles/CapFacet.h"
 #include "Core/Triangles/VertexMerging.h"
 
 #include <algorithm>
@@ -25,7 +26,7 @@ namespace isopoint
 enum class EdgeOrder
 {
   Ids, // by the ids of their ends
-  Tree // by the places of their ends in the tree, independent of sample ids
+  Tree // by the tree indices of their ends, independent of sample ids
 };
 
 /// A surface in a tetrahedralization, before vertices are merged.
@@ -34,7 +35,7 @@ struct MarchedTriangles
 {
   std::vector<CrossingEdge<TSample>> edges; // by crossing, sorted by the edges' ends in the tree
   CrossingMesh mesh;                        // each vertex is one crossing
-  std::vector<std::size_t> nearerEnds;      // of the edges, numbered by their places in the tree
+  std::vector<std::size_t> nearerEnds;      // of the edges, numbered in the order of the tree
   std::size_t endCount = 0;                 // exceeds all of these numbers
 };
 
@@ -74,7 +75,7 @@ public:
   CrossingVertices(const Execution& execution, const SampleTree<TSample>& tree,
     LeafValues<TSample>& values, double isovalue, EdgeOrder order,
     const std::vector<CrossingTetrahedron>& tetrahedra, const std::vector<CapFacet>& caps)
-    : Exec(execution)
+    : Run(execution)
     , Tree(tree)
     , Values(values)
     , Isovalue(isovalue)
@@ -88,13 +89,13 @@ public:
   void find()
   {
     this->numberLeaves();
-    this->Pairs = sortedUnique(this->Exec, this->allPairs(), this->Leaves.size(),
+    this->Pairs = sortedUnique(this->Run, this->allPairs(), this->Leaves.size(),
       [](const LeafPair& pair) { return static_cast<std::uint64_t>(pair.first); });
-    this->Exec.progress(0.7);
+    this->Run.progress(0.7);
     this->indexPairs();
     this->placeVertices();
     this->mergeAtSamples();
-    this->Exec.progress(1.0);
+    this->Run.progress(1.0);
   }
 
   Polygon polygonOf(const CrossingTetrahedron& tetrahedron) const
@@ -117,7 +118,7 @@ public:
   }
 
   /// The polygon of a cap: its part that is not below the isovalue. Sets, per side of the facet
-  /// with an end that is not below, the place in the polygon at which its part begins.
+  /// with an end that is not below, the corner of the polygon at which its part begins.
   Polygon polygonOf(const CapFacet& cap, std::array<std::size_t, 3>& begins) const
   {
     Polygon polygon{};
@@ -144,11 +145,11 @@ public:
   /// The number of a pair, ascending in the order of the tree.
   std::size_t numberOf(const LeafPair& pair) const
   {
-    const auto placeOf = [this](std::size_t begin)
+    const auto pairAt = [this](std::size_t begin)
     { return this->Pairs.begin() + static_cast<std::ptrdiff_t>(begin); };
     const auto leaf = static_cast<std::size_t>(pair.first);
     const auto found =
-      std::lower_bound(placeOf(this->PairBegins[leaf]), placeOf(this->PairBegins[leaf + 1]), pair);
+      std::lower_bound(pairAt(this->PairBegins[leaf]), pairAt(this->PairBegins[leaf + 1]), pair);
     return static_cast<std::size_t>(found - this->Pairs.begin());
   }
 
@@ -162,10 +163,10 @@ public:
   MarchedTriangles<TSample> chosen(const std::vector<std::size_t>& pairs) const
   {
     MarchedTriangles<TSample> result;
-    result.edges = chosenOf(this->Exec, this->Edges, pairs);
-    result.mesh.positions = chosenOf(this->Exec, this->Positions, pairs);
+    result.edges = chosenOf(this->Run, this->Edges, pairs);
+    result.mesh.positions = chosenOf(this->Run, this->Positions, pairs);
     result.mesh.members = numbersBelow(pairs.size());
-    result.nearerEnds = chosenOf(this->Exec, this->NearerEnds, pairs);
+    result.nearerEnds = chosenOf(this->Run, this->NearerEnds, pairs);
     result.endCount = this->Leaves.size();
     return result;
   }
@@ -235,15 +236,15 @@ private:
         isCorner[corner] = true;
       }
     };
-    forEachInOrder(this->Exec, this->Tetrahedra.size(),
+    forEachInOrder(this->Run, this->Tetrahedra.size(),
       [&](std::size_t i) { mark(this->Tetrahedra[i].corners); });
     forEachInOrder(
-      this->Exec, this->Caps.size(), [&](std::size_t i) { mark(this->Caps[i].corners); });
+      this->Run, this->Caps.size(), [&](std::size_t i) { mark(this->Caps[i].corners); });
     const std::vector<std::size_t> leaves =
-      inTreeOrder(this->Exec, this->Tree, markedOf(this->Exec, isCorner));
+      inTreeOrder(this->Run, this->Tree, markedOf(this->Run, isCorner));
     this->Leaves.resize(leaves.size());
     this->NumberOf.resize(this->Tree.nodes.size());
-    forEachIndex(this->Exec, leaves.size(),
+    forEachIndex(this->Run, leaves.size(),
       [&](std::size_t number)
       {
         this->NumberOf[leaves[number]] = static_cast<Id>(number);
@@ -260,7 +261,7 @@ private:
   {
     constexpr std::size_t grain = 4096;
     std::vector<LeafPair> pairs =
-      collected<LeafPair>(this->Exec, { this->Tetrahedra.size(), 8 * grain, grain },
+      collected<LeafPair>(this->Run, { this->Tetrahedra.size(), 8 * grain, grain },
         [&](std::size_t begin, std::size_t end, std::vector<LeafPair>& found)
         {
           for (std::size_t i = begin; i < end; ++i)
@@ -270,7 +271,7 @@ private:
           keepUnique(found);
         });
     std::array<std::size_t, 3> begins{};
-    forEachInOrder(this->Exec, this->Caps.size(),
+    forEachInOrder(this->Run, this->Caps.size(),
       [&](std::size_t i) { add(this->polygonOf(this->Caps[i], begins), pairs); });
     return pairs;
   }
@@ -285,7 +286,7 @@ private:
   {
     this->PairBegins.assign(this->Leaves.size() + 1, 0);
     // Pairs are ordered: where the first leaf changes, the lists of leaves begin.
-    forEachIndex(this->Exec, this->Pairs.size(),
+    forEachIndex(this->Run, this->Pairs.size(),
       [this](std::size_t i)
       {
         const auto leaf = static_cast<std::size_t>(this->Pairs[i].first);
@@ -304,7 +305,7 @@ private:
     this->NearerEnds.resize(this->Pairs.size());
     this->Ends.resize(this->Pairs.size());
     forEachIndex(
-      this->Exec, this->Pairs.size(), [this](std::size_t pair) { this->placeVertex(pair); });
+      this->Run, this->Pairs.size(), [this](std::size_t pair) { this->placeVertex(pair); });
   }
 
   void placeVertex(std::size_t vertex)
@@ -328,10 +329,11 @@ private:
                                 static_cast<Id>(upperLeaf), static_cast<Id>(lowerLeaf) };
     const Vector atLower = positionOf(lowerSample);
     const Vector atUpper = positionOf(upperSample);
-    const std::array<Vector, 2> places{ interpolate(atLower, atUpper, upwards),
+    const std::array<Vector, 2> crossings{ interpolate(atLower, atUpper, upwards),
       interpolate(atUpper, atLower, downwards) };
-    this->Positions[vertex] = places[isLowerFirst || this->Order == EdgeOrder::Tree ? 0 : 1];
-    const auto isOneOf = [&](const Vector& end) { return places[0] == end || places[1] == end; };
+    this->Positions[vertex] = crossings[isLowerFirst || this->Order == EdgeOrder::Tree ? 0 : 1];
+    const auto isOneOf = [&](const Vector& end)
+    { return crossings[0] == end || crossings[1] == end; };
     this->Ends[vertex] = upwards == 0.0 || downwards == 1.0 || isOneOf(atLower)   ? End::Lower
                          : upwards == 1.0 || downwards == 0.0 || isOneOf(atUpper) ? End::Upper
                                                                                   : End::Neither;
@@ -364,15 +366,15 @@ private:
       const auto& [lower, upper] = this->Pairs[edge];
       return static_cast<std::size_t>(this->Ends[edge] == End::Lower ? lower : upper);
     };
-    const std::vector<std::size_t> merged = itemsThat(this->Exec, this->Edges.size(),
+    const std::vector<std::size_t> merged = itemsThat(this->Run, this->Edges.size(),
       [this](std::size_t edge) { return this->Ends[edge] != End::Neither; });
     forEachInOrder(
-      this->Exec, merged.size(), [&](std::size_t i) { add(endOf(merged[i]), merged[i]); });
-    forEachIndex(this->Exec, merged.size(),
+      this->Run, merged.size(), [&](std::size_t i) { add(endOf(merged[i]), merged[i]); });
+    forEachIndex(this->Run, merged.size(),
       [&](std::size_t i) { this->VertexOf[merged[i]] = vertexAt[endOf(merged[i])]; });
   }
 
-  const Execution& Exec;
+  const Execution& Run;
   const SampleTree<TSample>& Tree;
   LeafValues<TSample>& Values;
   const double Isovalue;

@@ -24,7 +24,7 @@ class EdgeFlipper
 public:
   EdgeFlipper(const Execution& execution, const std::vector<Vector>& positions,
     const std::vector<char>& areFixed, std::vector<SurfaceTriangle> triangles)
-    : Exec(execution)
+    : Run(execution)
     , Positions(positions)
     , AreFixed(areFixed)
     , Mesh(execution, std::move(triangles), positions.size())
@@ -49,9 +49,9 @@ public:
     {
       isAnyFlipped = false;
       std::vector<State> states(this->States.size(), State::Seen);
-      forEachIndex(this->Exec, states.size(), [&](HalfEdge side) { this->choose(side, states); });
+      forEachIndex(this->Run, states.size(), [&](HalfEdge side) { this->choose(side, states); });
       this->States = std::move(states);
-      forEachInOrder(this->Exec, this->States.size(),
+      forEachInOrder(this->Run, this->States.size(),
         [&](HalfEdge side)
         {
           if (this->States[side] != State::Seen)
@@ -211,7 +211,7 @@ private:
            (after > 0.0 && after >= this->minUprightness({ a, b, c }, { b, a, d }));
   }
 
-  const Execution& Exec;
+  const Execution& Run;
   const std::vector<Vector>& Positions;
   const std::vector<char>& AreFixed; // each vertex
   SurfaceMesh Mesh;

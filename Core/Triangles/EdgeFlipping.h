@@ -5,7 +5,6 @@
 #include "Core/Base/Vector.h"
 #include "Core/Triangles/SurfaceTriangle.h"
 
-#include <cstddef>
 #include <vector>
 
 namespace isopoint

@@ -11,6 +11,7 @@
 #include "Core/Tetrahedra/CrossingTetrahedra.h"
 #include "Core/Tetrahedra/KeptTetrahedra.h"
 #include "Core/Triangles/BodyOrientation.h"
+#include "Core/Triangles/BodySurface.h"
 #include "Core/Triangles/BodyTetrahedra.h"
 #include "Core/Triangles/CreaseMesh.h"
 #include "Core/Triangles/EdgeFlipping.h"
@@ -52,7 +53,7 @@ public:
   TriangleExtraction(const Execution& execution, SampleTree<TSample>& tree, TRanks& ranks,
     const NeighborhoodCache<Id>& neighborhoods, std::unique_ptr<KeptTetrahedra>& band,
     const IsosurfaceRequest& request)
-    : Exec(execution)
+    : Run(execution)
     , Tree(tree)
     , Ranks(ranks)
     , Neighborhoods(neighborhoods)
@@ -72,19 +73,20 @@ public:
     constexpr double fitsEnd = 0.9; // shares of the progress
     const double mergingBegin = this->Request.fit ? 0.6 : 0.85;
     const double fitsBegin = this->hasCreases() ? 0.8 : mergingBegin + 0.05;
-    MarchedTriangles<TSample> marched = this->march(partOf(this->Exec, 0.0, mergingBegin));
+    MarchedTriangles<TSample> marched = this->march(partOf(this->Run, 0.0, mergingBegin));
     this->Edges = std::move(marched.edges);
     ExtractionContext<TSample> context(this->Tree, this->Neighborhoods, this->Request.isovalue);
     CrossingMesh mesh =
       this->Request.regularizes
-        ? this->merge(partOf(this->Exec, mergingBegin, fitsBegin), context, std::move(marched))
+        ? this->merge(partOf(this->Run, mergingBegin, fitsBegin), context, std::move(marched))
         : std::move(marched.mesh);
     std::vector<LocalFit> fits;
     if (this->Request.fit)
     {
-      fits = this->fitTo(partOf(this->Exec, fitsBegin, fitsEnd), context, mesh);
+      fits = this->fitTo(partOf(this->Run, fitsBegin, fitsEnd), context, mesh);
     }
-    return this->place(partOf(this->Exec, fitsEnd, 1.0), context, std::move(mesh), std::move(fits));
+    return this->placeVertices(
+      partOf(this->Run, fitsEnd, 1.0), context, std::move(mesh), std::move(fits));
   }
 
   std::vector<CrossingTetrahedron> tetrahedra(const Execution& execution)
@@ -177,7 +179,7 @@ private:
       const std::vector<std::size_t> atCreases = markedOf(execution, areFixed);
       this->FitsAtCreases = chosenOf(execution, fits, atCreases);
       this->AreAtCreases = areFixed;
-      this->NumberAtCreases = placesIn(execution, atCreases, fits.size());
+      this->NumberAtCreases = inverseOf(execution, atCreases, fits.size());
     }
     else if (this->Request.caps)
     {
@@ -207,7 +209,7 @@ private:
     const Execution& execution, ExtractionContext<TSample>& context, const CrossingMesh& mesh)
   {
     const auto edges = tabulated<CrossingEdge<TSample>>(
-      this->Exec, mesh.size(), [&](std::size_t vertex) { return this->edgeOf(mesh, vertex); });
+      this->Run, mesh.size(), [&](std::size_t vertex) { return this->edgeOf(mesh, vertex); });
     if (this->FitsAtCreases.empty() && mesh.caps.empty())
     {
       return this->Ranks.fitShared(execution, context, *this->Request.fit, edges, mesh.positions);
@@ -228,7 +230,7 @@ private:
       [&](std::size_t vertex) { return !isKnown(vertex) && !edges[vertex].isSample(); });
     const std::vector<LocalFit> others =
       this->Ranks.fitShared(execution, context, *this->Request.fit,
-        chosenOf(this->Exec, edges, unknown), chosenOf(this->Exec, mesh.positions, unknown));
+        chosenOf(this->Run, edges, unknown), chosenOf(this->Run, mesh.positions, unknown));
     forEachIndex(execution, unknown.size(), [&](std::size_t i) { fits[unknown[i]] = others[i]; });
     return fits;
   }
@@ -246,7 +248,7 @@ private:
   }
 
   /// Moves vertices by their fits unless a triangle turns over.
-  TriangleSurface place(const Execution& execution, ExtractionContext<TSample>& context,
+  TriangleSurface placeVertices(const Execution& execution, ExtractionContext<TSample>& context,
     CrossingMesh mesh, std::vector<LocalFit> fits)
   {
     const bool isMoved = this->Request.fit && this->Request.fit->move;
@@ -254,15 +256,15 @@ private:
     {
       this->keepRimOnEdges(mesh, fits);
       std::vector<SurfaceTriangle> others = mesh.triangles;
-      dropMarked(this->Exec, areAmong(this->Exec, mesh.triangles, mesh.caps), others);
+      dropMarked(this->Run, areAmong(this->Run, mesh.triangles, mesh.caps), others);
       keepTrianglesUpright(partOf(execution, 0.0, 0.5), mesh.positions, others, fits);
-      keepBodiesOriented(this->Exec, mesh.positions, mesh.triangles, mesh.caps, fits);
+      keepBodiesOriented(this->Run, mesh.positions, mesh.triangles, mesh.caps, fits);
     }
     else if (isMoved)
     {
       keepTrianglesUpright(partOf(execution, 0.0, 0.5), mesh.positions, mesh.triangles, fits);
     }
-    const std::vector<Vector> positions = tabulated<Vector>(this->Exec, mesh.size(),
+    const std::vector<Vector> positions = tabulated<Vector>(this->Run, mesh.size(),
       [&](std::size_t vertex)
       { return fits.empty() ? mesh.positions[vertex] : fits[vertex].position; });
     if (this->Request.regularizes)
@@ -272,35 +274,35 @@ private:
       this->flipEdgesOf(mesh, positions, fits);
       if (this->Request.caps)
       {
-        revertInvertingFlips(this->Exec, positions, before, mesh.triangles);
+        revertInvertingFlips(this->Run, positions, before, mesh.triangles);
       }
     }
-    std::vector<std::size_t> order = orderOfEdges(this->Exec, mesh.size(),
+    std::vector<std::size_t> order = orderOfEdges(this->Run, mesh.size(),
       [&](std::size_t vertex) -> const SampleEdge& { return this->edgeOf(mesh, vertex); });
     if (this->Request.minimumPieceSize > 0.0 && !mesh.triangles.empty())
     {
       this->dropSmallPieces(mesh, positions);
-      const std::vector<char> areUsed = areVerticesOf(this->Exec, mesh.triangles, positions.size());
+      const std::vector<char> areUsed = areVerticesOf(this->Run, mesh.triangles, positions.size());
       order =
-        chosenThat(this->Exec, order, [&](std::size_t vertex) { return areUsed[vertex] != 0; });
+        chosenThat(this->Run, order, [&](std::size_t vertex) { return areUsed[vertex] != 0; });
     }
-    mesh = inOrder(this->Exec, mesh, order);
-    fits = chosenOf(this->Exec, fits, order);
+    mesh = inOrder(this->Run, mesh, order);
+    fits = chosenOf(this->Run, fits, order);
     TriangleSurface surface;
     surface.vertices = placeIsopoints<TSample>(partOf(execution, 0.5, 1.0), context,
-      { chosenOf(this->Exec, this->Edges, mesh.members), mesh.memberBegins, mesh.positions },
+      { chosenOf(this->Run, this->Edges, mesh.members), mesh.memberBegins, mesh.positions },
       std::move(fits), isMoved);
     if (this->Request.caps)
     {
-      surface.areCaps = areAmong(this->Exec, mesh.triangles, mesh.caps);
+      surface.areCaps = areAmong(this->Run, mesh.triangles, mesh.caps);
     }
     surface.triangles = std::move(mesh.triangles);
     if (isMoved && this->hasCreases())
     {
-      meshCreases(this->Exec, surface.vertices, surface.triangles, this->Request);
+      meshCreases(this->Run, surface.vertices, surface.triangles, this->Request);
     }
     surface.droppedTetrahedra = this->Dropped;
-    surface.vertices.coincident = coincidentEnds(this->Exec, this->Tree, surface.vertices.leaves);
+    surface.vertices.coincident = coincidentEnds(this->Run, this->Tree, surface.vertices.leaves);
     return surface;
   }
 
@@ -308,8 +310,8 @@ private:
   /// stay where they are: to the tangent plane of the fit.
   void keepRimOnEdges(const CrossingMesh& mesh, std::vector<LocalFit>& fits) const
   {
-    const std::vector<char> areOfCaps = areVerticesOf(this->Exec, mesh.caps, fits.size());
-    forEachIndex(this->Exec, fits.size(),
+    const std::vector<char> areOfCaps = areVerticesOf(this->Run, mesh.caps, fits.size());
+    forEachIndex(this->Run, fits.size(),
       [&](std::size_t vertex)
       {
         LocalFit& fit = fits[vertex];
@@ -335,24 +337,24 @@ private:
   void dropSmallPieces(CrossingMesh& mesh, const std::vector<Vector>& positions) const
   {
     const std::vector<char> areSmall = areOfSmallPieces(
-      this->Exec, positions, mesh.triangles, this->Request.minimumPieceSize, this->Request.caps);
-    const std::vector<char> areCaps = areAmong(this->Exec, mesh.triangles, mesh.caps);
-    mesh.caps = chosenOf(this->Exec, mesh.triangles,
-      itemsThat(this->Exec, areCaps.size(),
+      this->Run, positions, mesh.triangles, this->Request.minimumPieceSize, this->Request.caps);
+    const std::vector<char> areCaps = areAmong(this->Run, mesh.triangles, mesh.caps);
+    mesh.caps = chosenOf(this->Run, mesh.triangles,
+      itemsThat(this->Run, areCaps.size(),
         [&](std::size_t i) { return areCaps[i] != 0 && areSmall[i] == 0; }));
-    dropMarked(this->Exec, areSmall, mesh.triangles);
+    dropMarked(this->Run, areSmall, mesh.triangles);
   }
 
   void flipEdgesOf(CrossingMesh& mesh, const std::vector<Vector>& positions,
     const std::vector<LocalFit>& fits) const
   {
     const std::vector<char> areFixed = this->hasCreases()
-                                         ? areAtCreases(this->Exec, fits, mesh.triangles)
-                                         : areVerticesOf(this->Exec, mesh.caps, positions.size());
-    flipEdges(this->Exec, positions, areFixed, mesh.triangles);
+                                         ? areAtCreases(this->Run, fits, mesh.triangles)
+                                         : areVerticesOf(this->Run, mesh.caps, positions.size());
+    flipEdges(this->Run, positions, areFixed, mesh.triangles);
   }
 
-  const Execution& Exec;
+  const Execution& Run;
   SampleTree<TSample>& Tree;
   TRanks& Ranks;
   const NeighborhoodCache<Id>& Neighborhoods;

@@ -2,6 +2,7 @@
 #include "Core/Triangles/FacetMesh.h"
 
 #include "Core/Base/Lists.h"
+#include "Core/Base/Sorting.h"
 #include "Core/Fit/LocalFit.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace isopoint
 
 FacetMesh::FacetMesh(const Execution& execution, const std::vector<Vector>& positions,
   const std::vector<bool>& isInner, const std::vector<Facet>& facets)
-  : Exec(execution)
+  : Run(execution)
   , Positions(positions)
   , IsInner(isInner)
   , Mesh(execution,
@@ -39,7 +40,7 @@ double FacetMesh::invertedArea(
 std::vector<std::size_t> FacetMesh::invertedFacets() const
 {
   return itemsThat(
-    this->Exec, this->Normals.size(), [this](std::size_t i) { return this->isInverted(i); });
+    this->Run, this->Normals.size(), [this](std::size_t i) { return this->isInverted(i); });
 }
 
 void FacetMesh::untangle()
@@ -50,7 +51,7 @@ void FacetMesh::untangle()
   {
     std::vector<std::size_t> changed;
     bool isAnyFlipped = false;
-    forEachInOrder(this->Exec, inverted.size(),
+    forEachInOrder(this->Run, inverted.size(),
       [&](std::size_t i)
       {
         const std::size_t facet = inverted[i];
@@ -64,7 +65,7 @@ void FacetMesh::untangle()
           }
         }
       });
-    inverted = isAnyFlipped ? sortedUnique(this->Exec, changed, this->Normals.size())
+    inverted = isAnyFlipped ? sortedUnique(this->Run, changed, this->Normals.size())
                             : std::vector<std::size_t>();
   }
 }
@@ -107,7 +108,7 @@ std::optional<std::size_t> FacetMesh::flipBest(std::size_t facet)
   }
   const std::size_t other = this->Mesh.twinOf(chosen) / 3;
   this->Mesh.flip(chosen);
-  this->Mesh.turn(facet);
+  this->Mesh.rotateCorners(facet);
   this->Normals[facet] = this->Normals[other] = chosenNormal;
   return other;
 }
@@ -139,9 +140,9 @@ double FacetMesh::invertedAreaAround(std::size_t vertex) const
 std::vector<Facet> FacetMesh::facets() const
 {
   const std::vector<std::size_t> left = itemsThat(
-    this->Exec, this->Normals.size(), [this](std::size_t i) { return !this->Mesh.isRemoved(i); });
+    this->Run, this->Normals.size(), [this](std::size_t i) { return !this->Mesh.isRemoved(i); });
   return tabulated<Facet>(
-    this->Exec, left.size(), [&](std::size_t i) { return this->facet(left[i]); });
+    this->Run, left.size(), [&](std::size_t i) { return this->facet(left[i]); });
 }
 
 } // namespace isopoint

@@ -5,7 +5,6 @@
 #include "Core/Base/Vector.h"
 #include "Core/Triangles/SurfaceMesh.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -98,7 +97,7 @@ private:
   /// noHalfEdge.
   HalfEdge sideToCollapse(std::size_t vertex, std::size_t neighbor) const;
 
-  const Execution& Exec;
+  const Execution& Run;
   const std::vector<Vector>& Positions;
   const std::vector<bool>& IsInner;
   SurfaceMesh Mesh;

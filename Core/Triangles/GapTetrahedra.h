@@ -4,6 +4,7 @@
 #include "Core/Base/Execution.h"
 #include "Core/Base/Lists.h"
 #include "Core/Base/Offset.h"
+#include "Core/Base/Sorting.h"
 #include "Core/Neighbors/GapCriterion.h"
 #include "Core/Neighbors/GapSpread.h"
 #include "Core/Neighbors/VoidCriterion.h"
@@ -106,12 +107,12 @@ public:
   /// @param keepsHullSlivers see IsosurfaceRequest
   GapTetrahedraFinder(const Execution& execution, const SampleTree<TSample>& tree, TRanks& ranks,
     const std::vector<CrossingTetrahedron>& tetrahedra, bool keepsHullSlivers)
-    : Exec(execution)
+    : Run(execution)
     , Tree(tree)
     , Ranks(ranks)
     , Tetrahedra(tetrahedra)
     , KeepsHullSlivers(keepsHullSlivers)
-    , Edges(execution, tree, ranks)
+    , Edges(execution, tree, ranks, [&tetrahedra](std::size_t i) { return tetrahedra[i].corners; })
   {
   }
 
@@ -120,32 +121,24 @@ public:
   std::vector<char> find()
   {
     ConnectedTetrahedra connected(this->Tetrahedra, this->Tree.nodes.size());
-    GapSpread<TRanks, ConnectedTetrahedra> spread(this->Exec, this->Ranks, connected);
+    GapSpread<TRanks, ConnectedTetrahedra> spread(this->Run, this->Ranks, connected);
     spread.spread(this->seeds(),
       [this](const std::vector<std::size_t>& some)
       {
-        return this->KeepsHullSlivers ? this->rejectedAmong(weakVoids(), some)
-                                      : this->rejectedAmong(RimCriterion(), some);
+        return this->KeepsHullSlivers ? this->Edges.rejectedAmong(weakVoids(), some)
+                                      : this->Edges.rejectedAmong(RimCriterion(), some);
       });
     spread.dropFragments();
     return spread.takeInGap();
   }
 
 private:
-  template <class TCriterion>
-  std::vector<std::size_t> rejectedAmong(
-    const TCriterion& criterion, const std::vector<std::size_t>& some)
-  {
-    return this->Edges.rejectedAmong(criterion, some,
-      [this](std::size_t tetrahedron) { return this->Tetrahedra[tetrahedron].corners; });
-  }
-
   /// The tetrahedra from which gaps spread. If slivers are kept, these span a void; otherwise the
   /// strong criterion rejects them, or they are at the hull.
   std::vector<std::size_t> seeds()
   {
     const std::vector<char> isDense = this->denseLeaves();
-    const std::vector<std::size_t> candidates = itemsThat(this->Exec, this->Tetrahedra.size(),
+    const std::vector<std::size_t> candidates = itemsThat(this->Run, this->Tetrahedra.size(),
       [&](std::size_t i)
       {
         const auto& corners = this->Tetrahedra[i].corners;
@@ -154,13 +147,13 @@ private:
       });
     if (this->KeepsHullSlivers)
     {
-      return this->rejectedAmong(strongVoids(), candidates);
+      return this->Edges.rejectedAmong(strongVoids(), candidates);
     }
-    std::vector<std::size_t> seeds = this->rejectedAmong(GapCriterion::strong(), candidates);
-    const std::vector<std::size_t> atHull = itemsThat(this->Exec, this->Tetrahedra.size(),
+    std::vector<std::size_t> seeds = this->Edges.rejectedAmong(GapCriterion::strong(), candidates);
+    const std::vector<std::size_t> atHull = itemsThat(this->Run, this->Tetrahedra.size(),
       [&](std::size_t i) { return this->Tetrahedra[i].isAtHull; });
     seeds.insert(seeds.end(), atHull.begin(), atHull.end());
-    return sortedUnique(this->Exec, seeds, this->Tetrahedra.size());
+    return sortedUnique(this->Run, seeds, this->Tetrahedra.size());
   }
 
   /// Marks, by node, the leaves whose longest edge the strong criterion may reject. Clouds without
@@ -169,23 +162,23 @@ private:
   {
     const std::vector<std::atomic<double>> longest = this->longestEdges(); // at each leaf, by node
     const std::vector<std::size_t> corners = // in the same order on all ranks
-      inTreeOrder(this->Exec, this->Tree,
-        itemsThat(this->Exec, longest.size(),
-          [&longest](std::size_t leaf) { return longest[leaf] > 0.0; }));
+      inTreeOrder(this->Run, this->Tree,
+        itemsThat(
+          this->Run, longest.size(), [&longest](std::size_t leaf) { return longest[leaf] > 0.0; }));
     std::vector<std::size_t> dense = itemsThat(
-      this->Exec, this->Ranks, corners.size(),
+      this->Run, this->Ranks, corners.size(),
       [&](std::size_t i)
       {
         const std::size_t leaf = corners[i];
         return this->Tree.hasOwn(this->Tree.nodes[leaf]) &&
-               GapCriterion::strong().mayDrop(this->Tree, pathToNode(this->Tree, leaf),
+               GapCriterion::strong().mayReject(this->Tree, pathToNode(this->Tree, leaf),
                  this->Tree.sampleOf(leaf), longest[leaf]);
       },
-      this->Exec.progress);
+      this->Run.progress);
     this->Ranks.unite(dense);
     std::vector<char> marksOfNodes(longest.size(), 0);
     forEachInOrder(
-      this->Exec, dense.size(), [&](std::size_t i) { marksOfNodes[corners[dense[i]]] = 1; });
+      this->Run, dense.size(), [&](std::size_t i) { marksOfNodes[corners[dense[i]]] = 1; });
     return marksOfNodes;
   }
 
@@ -200,7 +193,7 @@ private:
       {
       }
     };
-    forEachIndex(this->Exec, this->Tetrahedra.size(),
+    forEachIndex(this->Run, this->Tetrahedra.size(),
       [&](std::size_t tetrahedron)
       {
         const auto& corners = this->Tetrahedra[tetrahedron].corners;
@@ -220,7 +213,7 @@ private:
     return longest;
   }
 
-  const Execution& Exec;
+  const Execution& Run;
   const SampleTree<TSample>& Tree;
   TRanks& Ranks;
   const std::vector<CrossingTetrahedron>& Tetrahedra;

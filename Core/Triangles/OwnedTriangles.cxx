@@ -40,7 +40,7 @@ OwnedTriangles ownedTriangles(const Execution& execution,
   const std::vector<char> areGhosts = tabulated<char>(execution, owned.vertices.size(),
     [&](std::size_t i) { return !isOwn(outgoing.firstAt(owned.vertices[i]) / 3); });
   owned.areGhosts.assign(areGhosts.begin(), areGhosts.end());
-  const std::vector<std::size_t> places = placesIn(execution, owned.vertices, areInside.size());
+  const std::vector<std::size_t> numbers = inverseOf(execution, owned.vertices, areInside.size());
   std::vector<std::size_t> chosen =
     itemsThat(execution, rings.size(), [&rings](std::size_t i) { return rings[i] == 0; });
   const std::vector<std::size_t> ghosts =
@@ -51,7 +51,7 @@ OwnedTriangles ownedTriangles(const Execution& execution,
     [&](std::size_t i) -> SurfaceTriangle
     {
       const auto& [a, b, c] = triangles[chosen[i]];
-      return { places[a], places[b], places[c] };
+      return { numbers[a], numbers[b], numbers[c] };
     });
   owned.triangleNumbers = std::move(chosen);
   return owned;

@@ -2,6 +2,7 @@
 #include "Core/Triangles/ShortEdges.h"
 
 #include "Core/Base/Lists.h"
+#include "Core/Base/Sorting.h"
 
 #include <algorithm>
 #include <cmath>

@@ -166,7 +166,7 @@ std::vector<std::size_t> SurfaceMesh::neighborsOf(std::size_t vertex) const
   return neighbors;
 }
 
-void SurfaceMesh::place(
+void SurfaceMesh::put(
   std::size_t triangle, const SurfaceTriangle& corners, const std::array<HalfEdge, 3>& twins)
 {
   this->Triangles[triangle] = corners;
@@ -201,18 +201,18 @@ void SurfaceMesh::flip(HalfEdge side)
   const HalfEdge second = twin / 3 * 3;
   this->remove(first / 3);
   this->remove(second / 3);
-  this->place(first / 3, { c, a, d }, { ca, ad, second + 2 });
-  this->place(second / 3, { d, b, c }, { db, bc, first + 2 });
+  this->put(first / 3, { c, a, d }, { ca, ad, second + 2 });
+  this->put(second / 3, { d, b, c }, { db, bc, first + 2 });
 }
 
-void SurfaceMesh::turn(std::size_t triangle)
+void SurfaceMesh::rotateCorners(std::size_t triangle)
 {
   const auto [a, b, c] = this->Triangles[triangle];
   const HalfEdge first = 3 * triangle;
   const std::array<HalfEdge, 3> twins{ this->Twins[first + 1], this->Twins[first + 2],
     this->Twins[first] };
   this->remove(triangle);
-  this->place(triangle, { b, c, a }, twins);
+  this->put(triangle, { b, c, a }, twins);
 }
 
 void SurfaceMesh::collapse(HalfEdge side)

@@ -134,7 +134,7 @@ public:
   void flip(HalfEdge side);
 
   /// Lets a triangle begin at its second corner.
-  void turn(std::size_t triangle);
+  void rotateCorners(std::size_t triangle);
 
   /// Moves the start of a side onto its end and removes the side's two triangles. All sides at the
   /// start must have twins, and it must have exactly two neighbors in common with the end.
@@ -145,7 +145,7 @@ public:
 private:
   void findTwins(const Execution& execution);
   void setTwins(HalfEdge side, HalfEdge twin);
-  void place(
+  void put(
     std::size_t triangle, const SurfaceTriangle& corners, const std::array<HalfEdge, 3>& twins);
   void remove(std::size_t triangle);
 

@@ -13,7 +13,8 @@ namespace isopoint
 namespace
 {
 
-/// The solid angle of a triangle seen from a place, in full spheres: positive from behind [OS83].
+/// The solid angle of a triangle seen from a position, in full spheres: positive from behind
+/// [OS83].
 double solidAngle(const Vector& a, const Vector& b, const Vector& c)
 {
   constexpr double fullSphere = 12.566370614359172;
@@ -30,7 +31,7 @@ class SmallPieces
 public:
   SmallPieces(const Execution& execution, const std::vector<Vector>& positions,
     const std::vector<SurfaceTriangle>& triangles)
-    : Exec(execution)
+    : Run(execution)
     , Positions(positions)
     , Triangles(triangles)
     , Pieces(piecesOf(execution, triangles, positions.size()))
@@ -50,14 +51,14 @@ public:
     std::vector<double> volumes(this->Areas.size(), 0.0);
     if (areBodies)
     {
-      volumes = volumesOf(this->Exec, this->Pieces, this->Positions, this->Triangles);
+      volumes = volumesOf(this->Run, this->Pieces, this->Positions, this->Triangles);
     }
-    this->AreSmall = tabulated<char>(this->Exec, this->Areas.size(),
+    this->AreSmall = tabulated<char>(this->Run, this->Areas.size(),
       [&](std::size_t piece)
       { return this->Areas[piece] < share * largest && volumes[piece] >= 0.0; });
     this->addBubbles(itemsThat(
-      this->Exec, volumes.size(), [&](std::size_t piece) { return volumes[piece] < 0.0; }));
-    return tabulated<char>(this->Exec, this->Triangles.size(),
+      this->Run, volumes.size(), [&](std::size_t piece) { return volumes[piece] < 0.0; }));
+    return tabulated<char>(this->Run, this->Triangles.size(),
       [this](std::size_t i) { return this->AreSmall[this->pieceAt(i)]; });
   }
 
@@ -75,7 +76,7 @@ private:
       return;
     }
     std::vector<Region> boxes(this->Positions.size(), emptyRegion); // by piece
-    forEachInOrder(this->Exec, this->Triangles.size(),
+    forEachInOrder(this->Run, this->Triangles.size(),
       [&](std::size_t i)
       {
         for (const std::size_t vertex : this->Triangles[i])
@@ -85,19 +86,19 @@ private:
         }
       });
     std::vector<double> windings(bubbles.size(), 0.0); // around their first vertices
-    forEachIndex(this->Exec, bubbles.size(),
+    forEachIndex(this->Run, bubbles.size(),
       [&](std::size_t i)
       {
-        const Vector& place = this->Positions[bubbles[i]];
+        const Vector& position = this->Positions[bubbles[i]];
         for (std::size_t k = 0; k < this->Triangles.size(); ++k)
         {
           const std::size_t piece = this->pieceAt(k);
-          const Vector gap = gapTo(boxes[piece], place);
+          const Vector gap = gapTo(boxes[piece], position);
           if (this->AreSmall[piece] && dot(gap, gap) == 0.0)
           {
             const auto& [a, b, c] = this->Triangles[k];
-            windings[i] += solidAngle(
-              this->Positions[a] - place, this->Positions[b] - place, this->Positions[c] - place);
+            windings[i] += solidAngle(this->Positions[a] - position, this->Positions[b] - position,
+              this->Positions[c] - position);
           }
         }
       });
@@ -107,7 +108,7 @@ private:
     }
   }
 
-  const Execution& Exec;
+  const Execution& Run;
   const std::vector<Vector>& Positions;
   const std::vector<SurfaceTriangle>& Triangles;
   const std::vector<std::size_t> Pieces;

@@ -2,6 +2,7 @@
 #include "Core/Triangles/SurfaceTriangle.h"
 
 #include "Core/Base/Lists.h"
+#include "Core/Base/Sorting.h"
 
 #include <algorithm>
 #include <atomic>

@@ -4,6 +4,7 @@
 #include "Core/Base/ConcurrentMemo.h"
 #include "Core/Base/Execution.h"
 #include "Core/Base/Lists.h"
+#include "Core/Base/Sorting.h"
 #include "Core/Neighbors/SampleSpacing.h"
 #include "Core/Neighbors/VoidCriterion.h"
 #include "Core/Tree/SampleBounds.h"
@@ -12,6 +13,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
+#include <utility>
 #include <vector>
 
 namespace isopoint
@@ -24,32 +27,36 @@ template <class TSample, class TRanks>
 class TetrahedronEdges
 {
 public:
-  TetrahedronEdges(const Execution& execution, const SampleTree<TSample>& tree, TRanks& ranks)
-    : Exec(execution)
+  using Corners = std::array<std::size_t, 4>;
+
+  /// @param cornersOf(tetrahedron) the leaves at its corners; called from any thread
+  TetrahedronEdges(const Execution& execution, const SampleTree<TSample>& tree, TRanks& ranks,
+    std::function<Corners(std::size_t tetrahedron)> cornersOf)
+    : Run(execution)
     , Tree(tree)
     , Bounds(tree)
     , Ranks(ranks)
+    , CornersOf(std::move(cornersOf))
   {
   }
 
   /// The tetrahedra with an edge that a criterion rejects.
   /// @param tetrahedra the same on all ranks
-  /// @param cornersOf(tetrahedron) the four leaves at its corners
   /// @throws std::bad_alloc, Aborted, FailedElsewhere
-  template <class TCriterion, class CornersOf>
-  std::vector<std::size_t> rejectedAmong(const TCriterion& criterion,
-    const std::vector<std::size_t>& tetrahedra, const CornersOf& cornersOf)
+  template <class TCriterion>
+  std::vector<std::size_t> rejectedAmong(
+    const TCriterion& criterion, const std::vector<std::size_t>& tetrahedra)
   {
     std::vector<Edge> edges(6 * tetrahedra.size());
-    forEachIndex(this->Exec, tetrahedra.size(),
+    forEachIndex(this->Run, tetrahedra.size(),
       [&](std::size_t i)
       {
-        const std::array<Edge, 6> own = this->edgesBetween(cornersOf(tetrahedra[i]));
-        std::copy(own.begin(), own.end(), &edges[6 * i]);
+        const std::array<Edge, 6> six = this->edgesBetween(this->CornersOf(tetrahedra[i]));
+        std::copy(six.begin(), six.end(), &edges[6 * i]);
       });
     const std::vector<Edge> rejected = this->rejectedOf(criterion, edges);
-    return chosenOf(this->Exec, tetrahedra,
-      itemsThat(this->Exec, tetrahedra.size(),
+    return chosenOf(this->Run, tetrahedra,
+      itemsThat(this->Run, tetrahedra.size(),
         [&](std::size_t i)
         {
           return std::any_of(&edges[6 * i], &edges[6 * i] + 6,
@@ -59,17 +66,17 @@ public:
   }
 
 private:
-  /// Edges are ordered by the places of their ends in the tree.
+  /// Edges are ordered by the tree indices of their ends.
   struct Edge
   {
-    std::array<std::size_t, 2> places; // ascending
-    std::array<std::size_t, 2> leaves; // in the same order
+    std::array<std::size_t, 2> treeIndices; // ascending
+    std::array<std::size_t, 2> leaves;      // in the same order
 
-    bool operator<(const Edge& other) const { return this->places < other.places; }
-    bool operator==(const Edge& other) const { return this->places == other.places; }
+    bool operator<(const Edge& other) const { return this->treeIndices < other.treeIndices; }
+    bool operator==(const Edge& other) const { return this->treeIndices == other.treeIndices; }
   };
 
-  std::array<Edge, 6> edgesBetween(const std::array<std::size_t, 4>& corners) const
+  std::array<Edge, 6> edgesBetween(const Corners& corners) const
   {
     std::array<Edge, 6> edges;
     std::size_t count = 0;
@@ -91,22 +98,22 @@ private:
   template <class TCriterion>
   std::vector<Edge> rejectedOf(const TCriterion& criterion, const std::vector<Edge>& edges)
   {
-    const std::vector<Edge> distinct = sortedUnique(this->Exec, edges, this->Tree.samples.size(),
-      [](const Edge& edge) { return edge.places[0]; });
-    std::vector<std::size_t> found = itemsThat(this->Exec, this->Ranks, distinct.size(),
+    const std::vector<Edge> distinct = sortedUnique(this->Run, edges, this->Tree.samples.size(),
+      [](const Edge& edge) { return edge.treeIndices[0]; });
+    std::vector<std::size_t> found = itemsThat(this->Run, this->Ranks, distinct.size(),
       [&](std::size_t i)
       {
-        return this->Tree.isOwn(distinct[i].places[0]) &&
+        return this->Tree.isOwn(distinct[i].treeIndices[0]) &&
                this->isRejected(criterion, distinct[i].leaves);
       });
     this->Ranks.unite(found);
-    return chosenOf(this->Exec, distinct, found);
+    return chosenOf(this->Run, distinct, found);
   }
 
   template <class TCriterion>
   bool isRejected(const TCriterion& criterion, const std::array<std::size_t, 2>& leaves)
   {
-    return criterion.drops(
+    return criterion.rejects(
       this->Tree, this->Bounds, this->Tree.sampleOf(leaves[0]), this->Tree.sampleOf(leaves[1]));
   }
 
@@ -114,7 +121,7 @@ private:
   bool isRejected(
     const VoidCriterion<TCriterion>& criterion, const std::array<std::size_t, 2>& leaves)
   {
-    return criterion.drops(this->Tree, this->Bounds, this->Tree.sampleOf(leaves[0]),
+    return criterion.rejects(this->Tree, this->Bounds, this->Tree.sampleOf(leaves[0]),
       this->Tree.sampleOf(leaves[1]),
       std::max(this->spacingAt(leaves[0]), this->spacingAt(leaves[1])));
   }
@@ -125,10 +132,11 @@ private:
       leaf, [&]() { return SpacingSearch<TSample>(this->Tree, this->Tree.sampleOf(leaf)).find(); });
   }
 
-  const Execution& Exec;
+  const Execution& Run;
   const SampleTree<TSample>& Tree;
   SampleBounds<TSample> Bounds;
   TRanks& Ranks;
+  const std::function<Corners(std::size_t)> CornersOf;
   ConcurrentMemo<double> Spacings; // by leaf
 };
 

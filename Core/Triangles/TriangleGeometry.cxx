@@ -2,6 +2,7 @@
 #include "Core/Triangles/TriangleGeometry.h"
 
 #include "Core/Base/Lists.h"
+#include "Core/Base/Sorting.h"
 #include "Core/Triangles/SurfaceMesh.h"
 
 #include <algorithm>
@@ -78,7 +79,7 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
     const Vector& gradient = fits[vertex].gradient;
     return lengthOf(gradient) > 0.0 ? -directionOf(gradient) : Vector{}; // none at samples
   };
-  const auto isTurned = [&](const SurfaceTriangle& triangle)
+  const auto isInverted = [&](const SurfaceTriangle& triangle)
   {
     const auto& [a, b, c] = triangle;
     const bool isAtCrease = std::any_of(triangle.begin(), triangle.end(),
@@ -87,10 +88,10 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
     {
       return false;
     }
-    const auto placeOf = [&](std::size_t vertex)
+    const auto movedOf = [&](std::size_t vertex)
     { return isMoved(vertex) ? fits[vertex].position : unmoved[vertex]; };
     const Vector before = scaledNormal(unmoved[a], unmoved[b], unmoved[c]);
-    const Vector after = scaledNormal(placeOf(a), placeOf(b), placeOf(c));
+    const Vector after = scaledNormal(movedOf(a), movedOf(b), movedOf(c));
     const Vector falling = fallingAt(a) + fallingAt(b) + fallingAt(c);
     return dot(before, falling) > 0.0 && !(dot(after, falling) > 0.0);
   };
@@ -98,14 +99,14 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
   std::vector<std::size_t> suspects = numbersBelow(triangles.size());
   while (!suspects.empty())
   {
-    const std::vector<std::size_t> turned = chosenThat(
-      execution, suspects, [&](std::size_t triangle) { return isTurned(triangles[triangle]); });
+    const std::vector<std::size_t> inverted = chosenThat(
+      execution, suspects, [&](std::size_t triangle) { return isInverted(triangles[triangle]); });
     execution.progress(1.0);
     suspects.clear();
-    forEachInOrder(execution, turned.size(),
+    forEachInOrder(execution, inverted.size(),
       [&](std::size_t i)
       {
-        for (const std::size_t vertex : triangles[turned[i]])
+        for (const std::size_t vertex : triangles[inverted[i]])
         {
           if (isMoved(vertex))
           {

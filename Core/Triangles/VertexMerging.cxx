@@ -18,13 +18,13 @@ namespace isopoint
 namespace
 {
 
-/// Where merged parts are placed.
-class PartPlaces
+/// Where the vertices of merged parts are placed.
+class Placement
 {
 public:
   /// @param positions of the vertices
   /// @param memberBegins by vertex, offsets of the crossings that it is the mean of
-  PartPlaces(const SurfaceMesh& mesh, const CapRim& rim, const VertexParts& parts,
+  Placement(const SurfaceMesh& mesh, const CapRim& rim, const VertexParts& parts,
     const std::vector<Vector>& positions, const std::vector<std::size_t>& memberBegins)
     : Mesh(mesh)
     , Rim(rim)
@@ -34,14 +34,14 @@ public:
   {
   }
 
-  /// The vertices that determine the place of a part, ascending: the one at the rim of caps, else
-  /// the border corner, else all border vertices, else all vertices.
+  /// The vertices whose mean a part becomes, ascending: the one at the rim of caps, else the border
+  /// corner, else all border vertices, else all vertices.
   /// @param memory overwritten; may hold them
   IndexSpan<std::size_t> membersOf(std::size_t part, std::vector<std::size_t>& memory) const
   {
     const IndexSpan<std::size_t> vertices = this->Parts.verticesOf(part);
     memory.clear();
-    const std::size_t atRim = this->Rim.placeOf(this->Parts, part);
+    const std::size_t atRim = this->Rim.vertexOf(this->Parts, part);
     if (atRim != VertexParts::none)
     {
       memory.assign(1, atRim);
@@ -155,7 +155,7 @@ class VertexMerger
 {
 public:
   VertexMerger(const Execution& execution, MergeableTriangles triangles)
-    : Exec(execution)
+    : Run(execution)
     , Crossings(triangles.crossings)
     , KeepsRim(triangles.keepsRim)
     , HasCaps(!triangles.caps.empty())
@@ -174,36 +174,32 @@ public:
   CrossingMesh merge()
   {
     this->mergeAtEnds();
-    this->Exec.progress(0.7);
+    this->Run.progress(0.7);
     for (int round = 0; round < shortEdgeRounds; ++round)
     {
-      flipEdges(this->Exec, this->Result.positions,
-        this->HasCaps ? areVerticesOf(this->Exec, this->Result.caps, this->count())
-                      : this->AreFixed,
+      flipEdges(this->Run, this->Result.positions,
+        this->HasCaps ? areVerticesOf(this->Run, this->Result.caps, this->count()) : this->AreFixed,
         this->Result.triangles);
       const SurfaceMesh mesh = this->takeMesh();
       this->contract(mesh, this->pairsOfShortEdges(mesh), this->Result.positions);
     }
-    forEachIndex(this->Exec, this->Result.size(),
+    forEachIndex(this->Run, this->Result.size(),
       [this](std::size_t vertex) { this->putNearestFirst(vertex); });
-    this->Exec.progress(1.0);
+    this->Run.progress(1.0);
     return std::move(this->Result);
   }
 
 private:
   std::size_t count() const { return this->Result.memberBegins.size() - 1; }
 
-  SurfaceMesh takeMesh()
-  {
-    return { this->Exec, std::move(this->Result.triangles), this->count() };
-  }
+  SurfaceMesh takeMesh() { return { this->Run, std::move(this->Result.triangles), this->count() }; }
 
   /// Keeps branched vertices, and perhaps the rim, from now on, and merges the others at each
   /// sample.
   void mergeAtEnds()
   {
     const SurfaceMesh mesh = this->takeMesh();
-    forEachIndex(this->Exec, this->count(),
+    forEachIndex(this->Run, this->count(),
       [&](std::size_t vertex)
       {
         const SurfaceMesh::Fan fan = mesh.fanAt(vertex);
@@ -213,12 +209,12 @@ private:
           this->AreFixed[vertex] = 1;
         }
       });
-    const std::vector<std::size_t> kept = markedOf(this->Exec, this->AreFixed);
+    const std::vector<std::size_t> kept = markedOf(this->Run, this->AreFixed);
     std::vector<std::size_t> groups = std::move(this->NearerEnds);
-    forEachIndex(this->Exec, kept.size(),
+    forEachIndex(this->Run, kept.size(),
       [&](std::size_t i) { groups[kept[i]] = this->EndCount + i; }); // alone
     this->contract(
-      mesh, partsOfGroups(this->Exec, mesh, groups, this->EndCount + kept.size()), this->Crossings);
+      mesh, partsOfGroups(this->Run, mesh, groups, this->EndCount + kept.size()), this->Crossings);
   }
 
   /// Merges the vertices of each part if possible, and renumbers.
@@ -226,54 +222,55 @@ private:
   void contract(
     const SurfaceMesh& mesh, const VertexParts& parts, const std::vector<Vector>& former)
   {
-    const CapRim rim(this->Exec, mesh, this->Result.caps, former);
-    const PartPlaces places(mesh, rim, parts, former, this->Result.memberBegins);
+    const CapRim rim(this->Run, mesh, this->Result.caps, former);
+    const Placement placement(mesh, rim, parts, former, this->Result.memberBegins);
     std::vector<char> areMerged = tabulated<char>(
-      this->Exec, parts.size(), [&](std::size_t part) { return rim.isMergeable(parts, part); });
+      this->Run, parts.size(), [&](std::size_t part) { return rim.isMergeable(parts, part); });
     do
     {
-      areMerged = contractibleParts(this->Exec, mesh, parts, std::move(areMerged));
+      areMerged = contractibleParts(this->Run, mesh, parts, std::move(areMerged));
     } while ((this->KeepsRim || this->HasCaps) &&
-             this->separateTurned(mesh, parts, rim, places, former, areMerged));
+             this->separateInverting(mesh, parts, rim, placement, former, areMerged));
     const auto isMerged = [&](std::size_t vertex) { return parts.isMarked(vertex, areMerged); };
     const auto rootOf = [&](std::size_t vertex) { return parts.rootOf(vertex, areMerged); };
     const std::vector<std::size_t> roots = itemsThat(
-      this->Exec, this->count(), [&](std::size_t vertex) { return rootOf(vertex) == vertex; });
-    // The vertices that determine the place of a new one.
-    const auto placingAt = [&](std::size_t i, std::vector<std::size_t>& memory)
+      this->Run, this->count(), [&](std::size_t vertex) { return rootOf(vertex) == vertex; });
+    // The vertices whose mean a new one is.
+    const auto sourcesOf = [&](std::size_t i, std::vector<std::size_t>& memory)
     {
-      return isMerged(roots[i]) ? places.membersOf(parts.partOf[roots[i]], memory)
+      return isMerged(roots[i]) ? placement.membersOf(parts.partOf[roots[i]], memory)
                                 : IndexSpan<std::size_t>{ &roots[i], 1 };
     };
-    const std::vector<std::size_t> numbers = placesIn(this->Exec, roots, this->count());
+    const std::vector<std::size_t> numbers = inverseOf(this->Run, roots, this->count());
     const std::vector<std::size_t> number = tabulated<std::size_t>(
-      this->Exec, this->count(), [&](std::size_t vertex) { return numbers[rootOf(vertex)]; });
-    this->Result.triangles = renumbered(this->Exec, mesh.triangles(), number, roots.size());
-    this->Result.caps = renumbered(this->Exec, this->Result.caps, number, roots.size());
-    this->AreFixed = chosenOf(this->Exec, this->AreFixed, roots);
-    std::vector<Vector> positions = tabulated<Vector>(this->Exec, roots.size(),
+      this->Run, this->count(), [&](std::size_t vertex) { return numbers[rootOf(vertex)]; });
+    this->Result.triangles = renumbered(this->Run, mesh.triangles(), number, roots.size());
+    this->Result.caps = renumbered(this->Run, this->Result.caps, number, roots.size());
+    this->AreFixed = chosenOf(this->Run, this->AreFixed, roots);
+    std::vector<Vector> positions = tabulated<Vector>(this->Run, roots.size(),
       [&](std::size_t i)
       {
         std::vector<std::size_t> memory;
-        return isMerged(roots[i]) ? places.meanOf(placingAt(i, memory)) : former[roots[i]];
+        return isMerged(roots[i]) ? placement.meanOf(sourcesOf(i, memory)) : former[roots[i]];
       });
-    this->keepMembers(roots.size(), placingAt);
+    this->keepMembers(roots.size(), sourcesOf);
     this->Result.positions = std::move(positions);
   }
 
   /// Leaves parts unmerged whose merging would invert a triangle: any triangle if the rim stays,
   /// else triangles of caps, which are flat.
   /// @returns whether there were any; their neighbors may be no longer contractible
-  bool separateTurned(const SurfaceMesh& mesh, const VertexParts& parts, const CapRim& rim,
-    const PartPlaces& places, const std::vector<Vector>& former, std::vector<char>& areMerged) const
+  bool separateInverting(const SurfaceMesh& mesh, const VertexParts& parts, const CapRim& rim,
+    const Placement& placement, const std::vector<Vector>& former,
+    std::vector<char>& areMerged) const
   {
-    const std::vector<Vector> means = tabulated<Vector>(this->Exec, parts.size(),
+    const std::vector<Vector> means = tabulated<Vector>(this->Run, parts.size(),
       [&](std::size_t part)
       {
         std::vector<std::size_t> memory;
-        return places.meanOf(places.membersOf(part, memory));
+        return placement.meanOf(placement.membersOf(part, memory));
       });
-    const auto isTurned = [&](std::size_t triangle)
+    const auto isInverted = [&](std::size_t triangle)
     {
       if (!this->KeepsRim && !rim.isCap(triangle))
       {
@@ -295,13 +292,13 @@ private:
     };
     for (bool isAny = false;; isAny = true)
     {
-      const std::vector<std::size_t> turned =
-        itemsThat(this->Exec, mesh.triangles().size(), isTurned);
-      if (turned.empty())
+      const std::vector<std::size_t> inverted =
+        itemsThat(this->Run, mesh.triangles().size(), isInverted);
+      if (inverted.empty())
       {
         return isAny;
       }
-      for (const std::size_t triangle : turned)
+      for (const std::size_t triangle : inverted)
       {
         std::size_t farthest = VertexParts::none;
         double most = -1.0;
@@ -322,30 +319,30 @@ private:
     }
   }
 
-  /// @param placingAt(i, memory) the former vertices that determine the place of a new one
-  template <class PlacingAt>
-  void keepMembers(std::size_t count, const PlacingAt& placingAt)
+  /// @param sourcesOf(i, memory) the former vertices whose mean a new one is
+  template <class SourcesOf>
+  void keepMembers(std::size_t count, const SourcesOf& sourcesOf)
   {
     const std::vector<std::size_t>& former = this->Result.members;
     const std::vector<std::size_t>& formerBegins = this->Result.memberBegins;
-    std::vector<std::size_t> begins = beginsOfLists(this->Exec, count,
+    std::vector<std::size_t> begins = beginsOfLists(this->Run, count,
       [&](std::size_t i)
       {
         std::size_t size = 0;
         std::vector<std::size_t> memory;
-        for (const std::size_t vertex : placingAt(i, memory))
+        for (const std::size_t vertex : sourcesOf(i, memory))
         {
           size += formerBegins[vertex + 1] - formerBegins[vertex];
         }
         return size;
       });
     std::vector<std::size_t> members(begins.back());
-    forEachIndex(this->Exec, count,
+    forEachIndex(this->Run, count,
       [&](std::size_t i)
       {
         std::size_t* end = members.data() + begins[i];
         std::vector<std::size_t> memory;
-        for (const std::size_t vertex : placingAt(i, memory))
+        for (const std::size_t vertex : sourcesOf(i, memory))
         {
           end = std::copy(
             former.data() + formerBegins[vertex], former.data() + formerBegins[vertex + 1], end);
@@ -360,8 +357,8 @@ private:
   {
     std::vector<std::size_t> seconds(this->count(), 0); // of pairs; never the first vertex
     std::vector<bool> isTaken(this->count(), false);
-    const std::vector<VertexPair> edges = shortEdges(this->Exec, this->Result.positions, mesh);
-    forEachInOrder(this->Exec, edges.size(),
+    const std::vector<VertexPair> edges = shortEdges(this->Run, this->Result.positions, mesh);
+    forEachInOrder(this->Run, edges.size(),
       [&](std::size_t i)
       {
         const auto& [a, b] = edges[i];
@@ -371,11 +368,11 @@ private:
           seconds[a] = this->AreFixed[a] || this->AreFixed[b] ? 0 : b;
         }
       });
-    const std::vector<std::size_t> firsts = markedOf(this->Exec, seconds);
-    return { this->Exec,
-      tabulated<std::size_t>(this->Exec, 2 * firsts.size(),
+    const std::vector<std::size_t> firsts = markedOf(this->Run, seconds);
+    return { this->Run,
+      tabulated<std::size_t>(this->Run, 2 * firsts.size(),
         [&](std::size_t i) { return i % 2 == 0 ? firsts[i / 2] : seconds[firsts[i / 2]]; }),
-      tabulated<VertexParts::Part>(this->Exec, firsts.size(),
+      tabulated<VertexParts::Part>(this->Run, firsts.size(),
         [](std::size_t i) -> VertexParts::Part {
           return { 2 * i, 2 * i + 2 };
         }),
@@ -395,7 +392,7 @@ private:
     std::rotate(begin, nearest, nearest + 1);
   }
 
-  const Execution& Exec;
+  const Execution& Run;
   const std::vector<Vector>& Crossings;
   const bool KeepsRim;
   const bool HasCaps;
@@ -420,9 +417,9 @@ CrossingMesh inOrder(
   result.memberBegins = chosenLists(execution, mesh.memberBegins, order, members);
   result.members = chosenOf(execution, mesh.members, mesh.memberBegins.empty() ? order : members);
   result.positions = chosenOf(execution, mesh.positions, order);
-  const std::vector<std::size_t> places = placesIn(execution, order, mesh.size());
-  result.triangles = renumbered(execution, mesh.triangles, places, order.size());
-  result.caps = renumbered(execution, mesh.caps, places, order.size());
+  const std::vector<std::size_t> numbers = inverseOf(execution, order, mesh.size());
+  result.triangles = renumbered(execution, mesh.triangles, numbers, order.size());
+  result.caps = renumbered(execution, mesh.caps, numbers, order.size());
   return result;
 }
 

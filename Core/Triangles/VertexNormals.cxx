@@ -28,7 +28,7 @@ std::vector<std::size_t> failedNormals(const Execution& execution, const Surface
   const std::vector<Vector>& ofTriangles)
 {
   constexpr double minCosine = 0.5; // of 60 degrees
-  const auto isTurnedFrom = [&](const Vector& mean, std::size_t vertex)
+  const auto disagrees = [&](const Vector& mean, std::size_t vertex)
   { return hasDirection(mean) && dot(normals[vertex], directionOf(mean)) < minCosine; };
   const auto sumAround = [&](std::size_t vertex)
   {
@@ -47,7 +47,7 @@ std::vector<std::size_t> failedNormals(const Execution& execution, const Surface
     [&](std::size_t vertex)
     {
       return !isOther[vertex] && points.fits[vertex].order != FitOrder::Crease &&
-             isTurnedFrom(ofTriangles[vertex], vertex) && isTurnedFrom(sumAround(vertex), vertex);
+             disagrees(ofTriangles[vertex], vertex) && disagrees(sumAround(vertex), vertex);
     });
 }
 

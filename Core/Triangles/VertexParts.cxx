@@ -2,6 +2,7 @@
 #include "Core/Triangles/VertexParts.h"
 
 #include "Core/Base/Hash.h"
+#include "Core/Base/Sorting.h"
 #include "Core/Triangles/ConnectedVertices.h"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ class VertexContraction
 public:
   VertexContraction(const Execution& execution, const SurfaceMesh& mesh, const VertexParts& parts,
     std::vector<char> areWanted)
-    : Exec(execution)
+    : Run(execution)
     , Mesh(mesh)
     , Parts(parts)
     , AreMerged(std::move(areWanted))
@@ -48,19 +49,19 @@ public:
 
   std::vector<char> contract()
   {
-    std::vector<std::size_t> suspects = markedOf(this->Exec, this->AreMerged);
+    std::vector<std::size_t> suspects = markedOf(this->Run, this->AreMerged);
     while (!suspects.empty())
     {
       const std::vector<std::size_t> failed = this->failedOf(suspects);
       const std::vector<std::size_t> separated = this->lowestAmongNeighbors(failed);
       suspects = failed;
-      forEachInOrder(this->Exec, separated.size(),
+      forEachInOrder(this->Run, separated.size(),
         [&](std::size_t i)
         {
           this->AreMerged[separated[i]] = 0;
           this->forPartsAround(separated[i], [&](std::size_t other) { suspects.push_back(other); });
         });
-      suspects = sortedUnique(this->Exec, suspects, this->Parts.size());
+      suspects = sortedUnique(this->Run, suspects, this->Parts.size());
     }
     return std::move(this->AreMerged);
   }
@@ -92,7 +93,7 @@ private:
   std::vector<std::size_t> failedOf(const std::vector<std::size_t>& suspects) const
   {
     constexpr std::size_t grain = 1024;
-    return collected<std::size_t>(this->Exec, { suspects.size(), 4 * grain, grain },
+    return collected<std::size_t>(this->Run, { suspects.size(), 4 * grain, grain },
       [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
       {
         std::vector<std::size_t> ring;
@@ -127,7 +128,7 @@ private:
   std::vector<std::size_t> lowestAmongNeighbors(const std::vector<std::size_t>& failed) const
   {
     const auto keyOf = [](std::size_t part) { return std::pair(mixBits(part + 1), part); };
-    return chosenThat(this->Exec, failed,
+    return chosenThat(this->Run, failed,
       [&](std::size_t part)
       {
         bool isFirst = true;
@@ -196,7 +197,7 @@ private:
     return ring.size() >= least && std::adjacent_find(ring.begin(), ring.end()) == ring.end();
   }
 
-  const Execution& Exec;
+  const Execution& Run;
   const SurfaceMesh& Mesh;
   const VertexParts& Parts;
   std::vector<char> AreMerged;

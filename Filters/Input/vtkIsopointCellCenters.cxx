@@ -88,7 +88,7 @@ class LeafCollector
 public:
   LeafCollector(const isopoint::Execution& execution, vtkPoints* points,
     vtkUnsignedCharArray* ghosts, vtkUnsignedCharArray* inputGhosts)
-    : Exec(execution)
+    : Run(execution)
     , Points(points)
     , Ghosts(ghosts)
     , InputGhosts(inputGhosts)
@@ -121,7 +121,7 @@ public:
     constexpr vtkIdType leavesOfStep = 1 << 16;
     if (++this->Leaves % leavesOfStep == 0)
     {
-      isopoint::throwIfAborted(this->Exec);
+      isopoint::throwIfAborted(this->Run);
     }
     const bool isGhost = this->InputGhosts && this->InputGhosts->GetValue(id) != 0;
     if (!isGhost)
@@ -151,7 +151,7 @@ private:
     }
   }
 
-  const isopoint::Execution& Exec;
+  const isopoint::Execution& Run;
   vtkPoints* const Points;
   vtkUnsignedCharArray* const Ghosts;
   vtkUnsignedCharArray* const InputGhosts;

@@ -53,13 +53,13 @@ std::size_t expectTheDefinition(const clouds::Cloud& cloud)
         const std::size_t wanted = 1 + (x + y) % 3;
         const GapCriterion criterion(factor, wanted);
         const WideSample& other = sampleOf(leafOf.at(expected.cells[y].id));
-        const bool isDropped = criterion.drops(tree, bounds, sampleOf(leaf), other);
+        const bool isDropped = criterion.rejects(tree, bounds, sampleOf(leaf), other);
         EXPECT_EQ(isDropped, bruteforce::isDroppedByGap(
                                expected.cells, x, y, factor, static_cast<std::ptrdiff_t>(wanted)));
         if (isDropped)
         {
           const Offset edge = offsetBetween(positionOf(sampleOf(leaf)), positionOf(other));
-          EXPECT_TRUE(criterion.mayDrop(tree, at, sampleOf(leaf), edge.length));
+          EXPECT_TRUE(criterion.mayReject(tree, at, sampleOf(leaf), edge.length));
         }
         dropped += isDropped ? 1 : 0;
       }

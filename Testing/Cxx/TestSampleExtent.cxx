@@ -31,10 +31,10 @@ struct BruteForce
     double below = 0.0;
     double minLength = query.reach;
     double minDistance = query.enough;
-    const Vector place = query.place + query.enough * query.direction;
+    const Vector place = query.position + query.enough * query.direction;
     for (std::size_t i = cloud.size(); i-- > 0;)
     {
-      const Vector offset = cloud.at(i) - query.place;
+      const Vector offset = cloud.at(i) - query.position;
       const double length = lengthOf(offset);
       const double ahead = dot(offset, query.direction);
       if (length <= query.reach && ahead >= 0.7071 * length)
@@ -97,7 +97,7 @@ TEST(SampleExtent, EqualsBruteForceHoweverMuchOfTheTreeIsRefined)
       for (const ExtentQuery& query : queries)
       {
         const BruteForce expected(cloud, query);
-        const Vector ahead = query.place + query.enough * query.direction;
+        const Vector ahead = query.position + query.enough * query.direction;
         EXPECT_DOUBLE_EQ(extents.at(query), expected.extent);
         EXPECT_EQ(idOf(extents.nearest(query)), expected.nearest);
         EXPECT_EQ(idOf(extents.nearestTo(ahead, query.enough)), expected.closest);
@@ -116,5 +116,5 @@ TEST(SampleExtent, OfNoSamplesIsZero)
   const ExtentQuery query{ { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0 }, { 1.0, 0.0, 0.0 }, 1.0, 2.0 };
   EXPECT_EQ(SampleExtents(empty).at(query), 0.0);
   EXPECT_EQ(SampleExtents(empty).nearest(query), nullptr);
-  EXPECT_EQ(SampleExtents(empty).nearestTo(query.place, 1.0), nullptr);
+  EXPECT_EQ(SampleExtents(empty).nearestTo(query.position, 1.0), nullptr);
 }

@@ -277,7 +277,7 @@ TEST(Tetrahedra, AreInsertedTogetherByManyThreads)
     batches += count == threads && grain == 1 ? 1 : 0; // a stream of samples for each thread
     task(0, count);
   };
-  std::vector<isopoint::BandSite> sites;
+  std::vector<isopoint::Site> sites;
   Random random(28);
   isopoint::CoordinateUnit unit;
   for (std::uint64_t leaf = 0; leaf < 20000; ++leaf)

@@ -136,9 +136,9 @@ class TetrahedraSearch
 public:
   explicit TetrahedraSearch(Cloud cloud, std::size_t threads = 1)
     : Samples(std::move(cloud))
-    , Exec(clouds::executionOn(threads))
+    , Run(clouds::executionOn(threads))
     , Tree(isopoint::loadSamples<TSample>(
-        this->Exec, this->Samples.size(), clouds::readerOf(this->Samples)))
+        this->Run, this->Samples.size(), clouds::readerOf(this->Samples)))
   {
   }
 
@@ -147,18 +147,18 @@ public:
   {
     isopoint::IsosurfaceRequest request{ isovalue };
     request.keepsTetrahedra = keepsTetrahedra;
-    Extraction extraction(this->Exec, this->Tree, this->Rank, this->None, this->Band, request);
-    return this->compared(extraction.tetrahedra(this->Exec), extraction.counts(), isovalue);
+    Extraction extraction(this->Run, this->Tree, this->Rank, this->None, this->Band, request);
+    return this->compared(extraction.tetrahedra(this->Run), extraction.counts(), isovalue);
   }
 
   /// The same from a first band of only a share of the narrow band's nodes.
   Found expectSameFromPart(double isovalue, double share)
   {
-    auto nodes = isopoint::NarrowBand<TSample>(this->Tree, isovalue, this->Exec).refine(this->Rank);
+    auto nodes = isopoint::NarrowBand<TSample>(this->Tree, isovalue, this->Run).refine(this->Rank);
     nodes.resize(static_cast<std::size_t>(std::ceil(share * static_cast<double>(nodes.size()))));
     isopoint::LeafValues<TSample> means(this->Tree);
     isopoint::CrossingTetrahedraFinder<TSample, isopoint::SingleRank<TSample>> finder(
-      this->Exec, this->Tree, this->Rank, means, isovalue, this->Band);
+      this->Run, this->Tree, this->Rank, means, isovalue, this->Band);
     const auto tetrahedra = finder.find(nodes);
     return this->compared(tetrahedra, finder.counts(), isovalue);
   }
@@ -167,11 +167,11 @@ public:
   std::vector<Corners> inGaps(double isovalue, bool keepsHullSlivers = false)
   {
     const isopoint::IsosurfaceRequest request{ isovalue };
-    Extraction extraction(this->Exec, this->Tree, this->Rank, this->None, this->Band, request);
-    const auto all = extraction.tetrahedra(this->Exec);
+    Extraction extraction(this->Run, this->Tree, this->Rank, this->None, this->Band, request);
+    const auto all = extraction.tetrahedra(this->Run);
     const std::vector<char> areInGaps =
       isopoint::GapTetrahedraFinder<TSample, isopoint::SingleRank<TSample>>(
-        this->Exec, this->Tree, this->Rank, all, keepsHullSlivers)
+        this->Run, this->Tree, this->Rank, all, keepsHullSlivers)
         .find();
     std::decay_t<decltype(all)> tetrahedra;
     for (std::size_t i = 0; i < all.size(); ++i)
@@ -222,7 +222,7 @@ private:
   }
 
   Cloud Samples;
-  isopoint::Execution Exec;
+  isopoint::Execution Run;
   isopoint::SampleTree<TSample> Tree;
   isopoint::SingleRank<TSample> Rank{ this->Tree };
   isopoint::NeighborhoodCache<typename TSample::Id> None;
