@@ -321,8 +321,9 @@ double measure(const Adversary& adversary, const Options& options)
       seconds(options, [&]() { found = countFound(cloud, adversary, options.threads, counts); }));
   }
   std::printf("| %s | %zu | %.2f | %.2f | %zu + %zu in %zu rounds%s | %zu%s |\n",
-    adversary.name.c_str(), cloud.size(), full, ours / full, counts.band, counts.size - counts.band,
-    counts.rounds, counts.isWhole ? ", all" : "", found, found == expected ? "" : ", WRONG");
+    adversary.name.c_str(), cloud.size(), full, ours / full, counts.atSurface,
+    counts.size - counts.atSurface, counts.rounds, counts.isWhole ? ", all" : "", found,
+    found == expected ? "" : ", WRONG");
   std::fflush(stdout);
   return ours / full;
 }

@@ -6,7 +6,7 @@
 
 Prints two rows of a Markdown table for each cloud: random samples of the distance to the center of a cube, without
 and with noise; the plane and a wave on a curvilinear grid around a post; and the points of files of VTK. A triangle
-is turned if its normal looks against the sum of its corners' directions against the gradient. Borders are edges of
+is inverted if its normal looks against the sum of its corners' directions against the gradient. Borders are edges of
 one triangle, branches those of more than two. Errors are distances from the sphere, at random places of all
 triangles, in mean spacings. Processor seconds are those of one extraction.
 """
@@ -55,7 +55,7 @@ def smallest_angles(corners):
     return np.degrees(np.min(angles, axis=0))
 
 
-def turned(corners, gradients):
+def inverted(corners, gradients):
     """The number of triangles that look along the gradients at their corners, shape (triangles, 3, 3)."""
     lengths = np.linalg.norm(gradients, axis=2, keepdims=True)
     directions = -(gradients / np.where(lengths > 0, lengths, 1)).sum(axis=1)
@@ -84,7 +84,7 @@ def print_row(name, positions, values, isovalue, spacing, isopoints, regularize)
     common.print_row(
         name, f"{isopoints:,}", "on" if regularize else "off", f"{len(surface.points):,}",
         f"{np.percentile(angles, 5):.1f} / {np.median(angles):.1f}", f"{100 * (angles < 10).mean():.2f}",
-        turned(corners, np.asarray(surface.arrays["Gradients"])[triangles]), *topology(surface),
+        inverted(corners, np.asarray(surface.arrays["Gradients"])[triangles]), *topology(surface),
         distances, f"{seconds:.2f}")
 
 
@@ -92,7 +92,7 @@ parser = common.parser_of(__doc__)
 common.add_numbers(parser, samples=[1.0])
 common.add_files(parser, "FILE", "ARRAY", "ISOVALUE")
 common.print_head(
-    "cloud", "isopoints", "Regularize", "vertices", "smallest angle, 5 % / median", "below 10 degrees, %", "turned",
+    "cloud", "isopoints", "Regularize", "vertices", "smallest angle, 5 % / median", "below 10 degrees, %", "inverted",
     "Euler number", "components", "borders", "branches", "mean / largest error", "processor s")
 for name, *of_cloud in clouds(parser.parse_args()):
     isopoints = len(contour(*of_cloud[:3]).points)

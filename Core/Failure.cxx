@@ -94,13 +94,13 @@ std::string firstText(ProcessGroup& processes, const Failure& failure)
   {
     return {};
   }
-  std::vector<std::vector<char>> outgoing(static_cast<std::size_t>(size));
+  std::vector<std::vector<char>> outgoing(size);
   if (lowest == own)
   {
     outgoing.front().assign(failure.text.begin(), failure.text.end());
   }
   const std::vector<std::vector<char>> arrived = processes.exchange(outgoing);
-  const std::vector<char>& text = arrived[static_cast<std::size_t>(lowest)];
+  const std::vector<char>& text = arrived[lowest];
   return text.empty()
            ? std::string()
            : "Rank " + std::to_string(lowest) + ": " + std::string(text.begin(), text.end());

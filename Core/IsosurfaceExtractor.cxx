@@ -11,12 +11,6 @@ namespace isopoint
 namespace
 {
 
-Vector scaled(const Vector& vector, int exponent)
-{
-  return { std::ldexp(vector[0], exponent), std::ldexp(vector[1], exponent),
-    std::ldexp(vector[2], exponent) };
-}
-
 /// Multiplies the lengths that the output has by 2^exponent.
 void multiplyLengths(const Execution& execution, ExtractedIsosurface& result, int exponent)
 {
@@ -40,7 +34,10 @@ void multiplyLengths(const Execution& execution, ExtractedIsosurface& result, in
     [&](LocalFit& fit)
     {
       multiply(fit.position);
-      fit.gradient = scaled(fit.gradient, -exponent);
+      for (double& derivative : fit.gradient)
+      {
+        derivative = std::ldexp(derivative, -exponent);
+      }
     });
   change(result.splats,
     [&](Splat& splat)
@@ -54,7 +51,7 @@ void multiplyLengths(const Execution& execution, ExtractedIsosurface& result, in
 
 void IsosurfaceExtractor::clear()
 {
-  this->Held = SampleCloud<FloatSample>();
+  this->Cloud = SampleCloud<FloatSample>();
   this->Processes = nullptr;
   this->ItemCount = 0;
   this->ItemCounts.clear();
@@ -62,12 +59,12 @@ void IsosurfaceExtractor::clear()
 
 std::size_t IsosurfaceExtractor::sampleCount() const
 {
-  return std::visit([](const auto& cloud) { return cloud.tree.ownCount(); }, this->Held);
+  return std::visit([](const auto& cloud) { return cloud.tree.ownCount(); }, this->Cloud);
 }
 
 std::size_t IsosurfaceExtractor::skippedCount() const
 {
-  return std::visit([](const auto& cloud) { return cloud.tree.skipped; }, this->Held);
+  return std::visit([](const auto& cloud) { return cloud.tree.skipped; }, this->Cloud);
 }
 
 std::pair<double, double> IsosurfaceExtractor::valueRange() const
@@ -81,15 +78,15 @@ std::pair<double, double> IsosurfaceExtractor::valueRange() const
       {
         return Range(infinity, -infinity);
       }
-      const auto& root = cloud.tree.nodes[cloud.tree.rootNode];
+      const auto& root = cloud.tree.nodes[rootNode];
       return Range(root.minimum, root.maximum);
     },
-    this->Held);
+    this->Cloud);
 }
 
 void IsosurfaceExtractor::setValueError(double error)
 {
-  std::visit([error](auto& cloud) { cloud.tree.valueError = error; }, this->Held);
+  std::visit([error](auto& cloud) { cloud.tree.valueError = error; }, this->Cloud);
 }
 
 ExtractedIsosurface IsosurfaceExtractor::extract(
@@ -108,7 +105,7 @@ ExtractedIsosurface IsosurfaceExtractor::extract(
       }
       return found;
     },
-    this->Held);
+    this->Cloud);
   execution.progress(1.0);
   return result;
 }

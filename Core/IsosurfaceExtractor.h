@@ -74,14 +74,8 @@ public:
   void load(const Execution& execution, std::size_t count, const Reader& read)
   {
     this->clear();
-    if (isNarrow(count))
-    {
-      this->loadAlone<SampleFor<TCoordinate, TValue>>(execution, count, read);
-    }
-    else
-    {
-      this->loadAlone<WideSample>(execution, count, read);
-    }
+    isNarrow(count) ? this->loadAlone<SampleFor<TCoordinate, TValue>>(execution, count, read)
+                    : this->loadAlone<WideSample>(execution, count, read);
     this->ItemCount = count;
     execution.progress(1.0);
   }
@@ -103,14 +97,9 @@ public:
     this->clear();
     std::vector<std::uint64_t> counts = processes.gather(std::uint64_t{ count });
     const std::uint64_t all = std::accumulate(counts.begin(), counts.end(), std::uint64_t{ 0 });
-    if (isNarrow(all))
-    {
-      this->loadShared<SampleFor<TCoordinate, TValue>>(execution, processes, counts, all, read);
-    }
-    else
-    {
-      this->loadShared<WideSample>(execution, processes, counts, all, read);
-    }
+    using TSample = SampleFor<TCoordinate, TValue>;
+    isNarrow(all) ? this->loadShared<TSample>(execution, processes, counts, all, read)
+                  : this->loadShared<WideSample>(execution, processes, counts, all, read);
     this->ItemCount = all;
     this->ItemCounts.swap(counts);
     this->Processes = &processes;
@@ -186,7 +175,7 @@ private:
     cloud.exponent =
       isOutOfScale<TSample>(greatest) ? scaleExponent(greatest, countExponents(cloud.tree)) : 0;
     dividePositions(execution, cloud.tree, cloud.exponent);
-    this->Held = std::move(cloud);
+    this->Cloud = std::move(cloud);
   }
 
   template <class TSample, class Reader>
@@ -202,7 +191,7 @@ private:
     this->Positions = hashOfSamples(execution, loaded.samples, first);
     SharedTree<TSample> shared = SharedTreeBuilder<TSample>(processes, std::move(loaded), all)
                                    .build(partOf(execution, 0.5, 1.0));
-    this->Held = SampleCloud<TSample>{ std::move(shared.tree), {}, std::move(shared.begins),
+    this->Cloud = SampleCloud<TSample>{ std::move(shared.tree), {}, std::move(shared.begins),
       nullptr, exponent };
   }
 
@@ -229,12 +218,9 @@ private:
   template <class TSample, class Reader>
   bool replaceValuesAs(const Execution& execution, std::size_t count, const Reader& read)
   {
-    auto* const cloud = std::get_if<SampleCloud<TSample>>(&this->Held);
-    if (!cloud || cloud->tree.isEmpty()) // on all ranks
-    {
-      return false;
-    }
-    if (!this->holdsPositions(execution, *cloud, count, read))
+    auto* const cloud = std::get_if<SampleCloud<TSample>>(&this->Cloud);
+    if (!cloud || cloud->tree.isEmpty() || // on all ranks
+        !this->holdsPositions(execution, *cloud, count, read))
     {
       return false;
     }
@@ -275,7 +261,7 @@ private:
 
   std::variant<SampleCloud<FloatSample>, SampleCloud<FloatSampleOfDouble>,
     SampleCloud<DoubleSampleOfFloat>, SampleCloud<WideSample>>
-    Held;
+    Cloud;
   std::size_t ItemCount = 0; // of all ranks
   // Only on ranks:
   ProcessGroup* Processes = nullptr;

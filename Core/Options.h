@@ -152,8 +152,8 @@ void checkOptions(const Options& options, OptionNaming naming = sameName);
 /// Each isovalue once, ascending. @throws UsageError if one is NaN
 std::vector<double> sortedIsovalues(const std::vector<double>& isovalues);
 
-/// The options that take effect: options only for triangles, or only for points, are reset in the
-/// other case, and triangles have no splats.
+/// The options that take effect: those only for triangles, or only for points, are reset for the
+/// other kind of surface, and triangles have no splats.
 Options effectiveOptions(const Options& options);
 
 /// Whether the output's positions are float. @param areFloatPositions of all samples

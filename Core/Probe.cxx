@@ -72,7 +72,7 @@ void IsosurfaceExtractor::probe(const Execution& execution, const std::vector<Ve
         });
       divideGradients(execution, arrays, places.size(), cloud.exponent);
     },
-    this->Held);
+    this->Cloud);
   execution.progress(1.0);
 }
 
@@ -94,7 +94,7 @@ Neighborhoods IsosurfaceExtractor::findNeighborhoods(
                ? find(NodeExchange<TSample>(*this->Processes, cloud.tree, cloud.begins))
                : find(OwnNodes<TSample>(execution, cloud.tree));
     },
-    this->Held);
+    this->Cloud);
 }
 
 void IsosurfaceExtractor::probe(const Execution& execution, const Neighborhoods& neighborhoods,

@@ -12,8 +12,8 @@ namespace isopoint
 {
 
 /// Values computed on demand and shared by all threads, by index. Known values are read without a
-/// lock. Memory: 16 values for each aligned range of 16 indices with a known value, and a pointer
-/// for each range up to about four times the greatest index.
+/// lock. Memory: 16 values for each block of 16 indices with a known value, and a pointer for each
+/// block up to four times the greatest index.
 /// @tparam T default constructible and copyable
 template <class T>
 class ConcurrentMemo

@@ -80,8 +80,8 @@ inline void throwIfAborted(const Execution& execution)
   }
 }
 
-/// Runs the task over [0, count); see `ParallelFor`. Exceptions must not cross the scheduler. After
-/// one, ranges that have not begun do nothing; the first one caught is rethrown here.
+/// Runs the task over [0, count); see ParallelFor. Exceptions must not cross the scheduler: after
+/// one, skips the ranges that have not begun, and rethrows it here.
 inline void forRanges(
   const Execution& execution, std::size_t count, std::size_t grain, const RangeTask& task)
 {

@@ -24,7 +24,7 @@ struct IndexSpan
   bool isEmpty() const { return this->count == 0; }
   const TId* begin() const { return this->first; }
   const TId* end() const { return this->first + this->count; }
-  std::size_t operator[](std::size_t i) const { return static_cast<std::size_t>(this->first[i]); }
+  std::size_t operator[](std::size_t i) const { return this->first[i]; }
 };
 
 /// 0, ..., count - 1.
@@ -258,7 +258,7 @@ public:
       {
         for (const auto key : keysOf(item))
         {
-          ++this->Begins[static_cast<std::size_t>(key)];
+          ++this->Begins[key];
         }
       });
     std::size_t end = 0;
@@ -271,7 +271,7 @@ public:
         const std::size_t item = itemCount - 1 - i;
         for (const auto key : keysOf(item))
         {
-          this->Items[--this->Begins[static_cast<std::size_t>(key)]] = item;
+          this->Items[--this->Begins[key]] = item;
         }
       });
   }

@@ -178,7 +178,7 @@ public:
     std::vector<std::vector<T>> received(count);
     for (std::size_t i = 0; i < count; ++i)
     {
-      received[i].resize(static_cast<std::size_t>(sizes[i]));
+      received[i].resize(sizes[i]);
       from[i] = { outgoing[i].data(), outgoing[i].size() * sizeof(T) };
       to[i] = { received[i].data(), received[i].size() * sizeof(T) };
     }
@@ -197,7 +197,7 @@ public:
     std::vector<std::vector<T>> all(sizes.size());
     for (std::size_t i = 0; i < all.size(); ++i)
     {
-      all[i].resize(static_cast<std::size_t>(sizes[i]));
+      all[i].resize(sizes[i]);
       to[i] = { all[i].data(), all[i].size() * sizeof(T) };
     }
     this->exchange(from, to);

@@ -128,9 +128,8 @@ std::vector<T> sortedUnique(const Execution& execution, const std::vector<T>& el
     throwIfAborted(execution);
     if (size < ends[bucket])
     {
-      const auto first = dealt.begin() + static_cast<std::ptrdiff_t>(ends[bucket]);
-      std::copy(first, first + static_cast<std::ptrdiff_t>(counts[bucket]),
-        dealt.begin() + static_cast<std::ptrdiff_t>(size));
+      const T* const first = dealt.data() + ends[bucket];
+      std::copy(first, first + counts[bucket], dealt.data() + size);
     }
     size += counts[bucket];
   }

@@ -202,7 +202,7 @@ std::vector<char> edgesInGaps(const Execution& execution, const SampleTree<TSamp
       ranks.uniteEdges(edges, weak);
       return weak;
     });
-  return spread.takeInGap();
+  return spread.takeMarks();
 }
 
 /// Drops the edges in gaps. @returns the number of dropped edges that belong to this rank

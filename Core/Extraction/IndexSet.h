@@ -26,18 +26,18 @@ public:
   }
 
   /// @returns whether it was not in the set. O(1) @throws std::bad_alloc
-  [[gnu::always_inline]] bool add(TId leaf)
+  [[gnu::always_inline]] bool add(TId index)
   {
     if (2 * this->Count >= this->Entries.size())
     {
       this->grow();
     }
-    Entry& entry = this->entryOf(leaf);
+    Entry& entry = this->entryOf(index);
     if (entry.generation == this->Generation)
     {
       return false;
     }
-    entry = { leaf, this->Generation };
+    entry = { index, this->Generation };
     ++this->Count;
     return true;
   }
@@ -45,17 +45,17 @@ public:
 private:
   struct Entry
   {
-    TId leaf = 0;
+    TId index = 0;
     std::uint32_t generation = 0; // in the set if it is the current one
   };
 
-  /// The entry of a leaf, or where to insert it. Nearby nodes have nearby indices, which linear
+  /// The entry of an index, or where to insert it. Nearby nodes have nearby indices, which linear
   /// probing keeps in the same cache lines.
-  Entry& entryOf(TId leaf)
+  Entry& entryOf(TId index)
   {
     const std::size_t mask = this->Entries.size() - 1;
-    std::size_t at = static_cast<std::size_t>(leaf) & mask;
-    while (this->Entries[at].generation == this->Generation && this->Entries[at].leaf != leaf)
+    std::size_t at = static_cast<std::size_t>(index) & mask;
+    while (this->Entries[at].generation == this->Generation && this->Entries[at].index != index)
     {
       at = (at + 1) & mask;
     }
@@ -71,7 +71,7 @@ private:
     {
       if (entry.generation == this->Generation)
       {
-        this->entryOf(entry.leaf) = entry;
+        this->entryOf(entry.index) = entry;
       }
     }
   }

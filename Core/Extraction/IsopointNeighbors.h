@@ -254,8 +254,7 @@ private:
           for (std::size_t leaf = part * grain + 1; leaf <= last; ++leaf)
           {
             const IndexSpan<Id> touching =
-              isSurrounded[leaf] ? fewNeighborsOf(tree, known,
-                                     static_cast<std::size_t>(this->Leaves[leaf]), most, memory)
+              isSurrounded[leaf] ? fewNeighborsOf(tree, known, this->Leaves[leaf], most, memory)
                                  : IndexSpan<Id>{};
             for (const Id node : touching)
             {

@@ -57,8 +57,8 @@ std::vector<std::size_t> leavesOf(const Execution& execution,
   forEachIndex(execution, edges.size(),
     [&](std::size_t i)
     {
-      leaves[2 * i] = static_cast<std::size_t>(edges[i].firstLeaf);
-      leaves[2 * i + 1] = static_cast<std::size_t>(edges[i].secondLeaf);
+      leaves[2 * i] = edges[i].firstLeaf;
+      leaves[2 * i + 1] = edges[i].secondLeaf;
     });
   return sortedUnique(execution, leaves, nodeCount);
 }
@@ -77,9 +77,9 @@ struct IsosurfaceRequest
   bool duplicatesCreaseVertices = false;
   /// Triangles only: whether to merge vertices and flip edges for good shapes (docs/triangles.md).
   bool regularizes = false;
-  /// Triangles only, for slices: whether gaps begin only where edges span a void, and not at
-  /// slivers on the convex hull, and vertices of the rim stay when others merge, so that the rim is
-  /// that of the body (docs/triangles.md).
+  /// Triangles only, for slices: whether gaps begin only at edges that span a void, not at slivers
+  /// on the convex hull, and merging keeps the vertices of the rim. The rim is then that of the
+  /// body (docs/triangles.md).
   bool keepsHullSlivers = false;
   /// Triangles only: whether the surface is that of the body of the samples at or above the
   /// isovalue, closed by caps where the samples end (docs/triangles.md). Not with creases.

@@ -22,7 +22,7 @@ namespace isopoint
 {
 
 /// The spacing of samples around one of them (docs/algorithm.md, section 10.1). For one thread.
-class SampleSpacing
+class NeighborSpacing
 {
 public:
   void clear() { this->Neighbors.clear(); }
@@ -207,7 +207,7 @@ public:
     return *rings.spacing;
   }
 
-  double valueOf(Id leaf) { return this->Values.at(static_cast<std::size_t>(leaf)); }
+  double valueOf(Id leaf) { return this->Values.at(leaf); }
 
 private:
   /// The neighbors of a leaf; none if there are too many. Valid until the next call of makeRoom().
@@ -220,8 +220,8 @@ private:
       return { found->second.data(), found->second.size() };
     }
     std::vector<Id> memory;
-    const IndexSpan<Id> neighbors = fewNeighborsOf(this->Tree, this->Context.neighborhoods,
-      static_cast<std::size_t>(leaf), maxNeighbors, memory);
+    const IndexSpan<Id> neighbors =
+      fewNeighborsOf(this->Tree, this->Context.neighborhoods, leaf, maxNeighbors, memory);
     if (!memory.empty())
     {
       memory.resize(neighbors.count);
@@ -232,10 +232,7 @@ private:
 
   bool isBelow(Id leaf) { return this->valueOf(leaf) < this->Context.isovalue; }
 
-  Vector positionOfLeaf(Id leaf) const
-  {
-    return positionOf(this->Tree.sampleOf(static_cast<std::size_t>(leaf)));
-  }
+  Vector positionOfLeaf(Id leaf) const { return positionOf(this->Tree.sampleOf(leaf)); }
 
   ExtractionContext<TSample>& Context;
   const SampleTree<TSample>& Tree;
@@ -245,7 +242,7 @@ private:
   std::unordered_map<Id, std::vector<Id>> Found; // neighbors from searches, by leaf
   std::size_t CountListed = 0;                   // leaves in all second rings
   IndexSet<Id> Listed;
-  SampleSpacing Spacing;
+  NeighborSpacing Spacing;
 };
 
 } // namespace isopoint

@@ -66,10 +66,10 @@ public:
   std::vector<BinaryIndex> refine(TRanks& ranks)
   {
     std::vector<BandNode> front;
-    const Node<TSample> root = this->Tree.nodes[SampleTree<TSample>::rootNode];
+    const Node<TSample> root = this->Tree.nodes[rootNode];
     if (root.minimum < this->Isovalue && root.maximum >= this->Isovalue && this->Tree.hasOwn(root))
     {
-      front.push_back({ rootIndex, SampleTree<TSample>::rootNode, true });
+      front.push_back({ rootIndex, rootNode, true });
     }
     bool isDone = front.empty();
     for (int depth = 0; ranks.isAny(!isDone);)

@@ -87,7 +87,7 @@ std::vector<std::size_t> orderInTree(const Execution& execution, const SampleTre
   const std::vector<CrossingEdge<TSample>>& edges)
 {
   const auto beginOf = [&tree](typename TSample::Id leaf) -> std::uint64_t
-  { return tree.nodes[static_cast<std::size_t>(leaf)].begin; };
+  { return tree.nodes[leaf].begin; };
   using TreeIndices = std::pair<std::uint64_t, std::uint64_t>; // of both ends, ascending
   return orderByKeys(
     execution, edges.size(), tree.samples.size(),

@@ -96,8 +96,7 @@ public:
 
   FitSample sampleAt(Id leaf)
   {
-    return { positionOf(this->Tree.sampleOf(static_cast<std::size_t>(leaf))),
-      this->AllRings.valueOf(leaf) };
+    return { positionOf(this->Tree.sampleOf(leaf)), this->AllRings.valueOf(leaf) };
   }
 
 private:
@@ -123,10 +122,7 @@ private:
     }
   }
 
-  std::size_t treeIndexOf(Id leaf) const
-  {
-    return this->Tree.nodes[static_cast<std::size_t>(leaf)].begin;
-  }
+  std::size_t treeIndexOf(Id leaf) const { return this->Tree.nodes[leaf].begin; }
 
   const SampleTree<TSample>& Tree;
   LeafRings<TSample> AllRings;

@@ -69,8 +69,7 @@ public:
     const Vector center = positionOf(end);
     SearchBehind<TSample> search{ *this, tree, bounds, center,
       offsetBetween(center, positionOf(other)), {} };
-    return searchRegion(
-      tree, SampleTree<TSample>::rootNode, this->boxAround(center, search.edge.length), search);
+    return searchRegion(tree, rootNode, this->boxAround(center, search.edge.length), search);
   }
 
   /// A quick test: if false, no edge of the leaf's sample up to this length is rejected.
@@ -216,7 +215,7 @@ private:
 class RimCriterion
 {
 public:
-  /// As GapCriterion::rejects().
+  /// Whether an edge is rejected. Symmetric; throws and takes time as GapCriterion::rejects().
   template <class TSample>
   bool rejects(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& own,
     const TSample& other) const

@@ -34,7 +34,7 @@ public:
     this->resize();
   }
 
-  /// Marks the weak seeds, and the weak elements that are connected with one through others.
+  /// Marks the weak seeds, and all weak elements that a chain of weak ones connects with a seed.
   /// @param front the seeds, each once
   /// @param weakAmong(elements) those of some elements that are weak, on any rank
   /// @throws std::bad_alloc, Aborted, FailedElsewhere; so does dropFragments()
@@ -48,7 +48,7 @@ public:
     }
   }
 
-  /// Marks the small pieces of other elements, connected with each other, next to marked ones.
+  /// Marks connected sets of fewer than eight unmarked elements next to marked ones.
   void dropFragments()
   {
     std::vector<std::size_t> fragments;
@@ -86,7 +86,7 @@ public:
   }
 
   /// By element, whether it is marked. Moved out.
-  std::vector<char> takeInGap() { return std::move(this->IsInGap); }
+  std::vector<char> takeMarks() { return std::move(this->IsInGap); }
 
 private:
   /// Smaller pieces next to a gap are dropped with it.

@@ -242,8 +242,8 @@ private:
   bool areDropped(
     const AngleCriterion& criterion, const OffsetBounds& offsets, std::size_t first) const
   {
-    return std::any_of(this->Droppers.begin() + static_cast<std::ptrdiff_t>(first),
-      this->Droppers.end(), [&](const Offset& z) { return criterion.dropsAll(z, offsets); });
+    return std::any_of(this->Droppers.data() + first, this->Droppers.data() + this->Droppers.size(),
+      [&](const Offset& z) { return criterion.dropsAll(z, offsets); });
   }
 
   /// Whether any neighbor drops y.

@@ -78,8 +78,7 @@ public:
   {
     if (!this->Tree.isEmpty())
     {
-      searchRegion(
-        this->Tree, SampleTree<TSample>::rootNode, this->needed(this->Tree.region), *this);
+      searchRegion(this->Tree, rootNode, this->needed(this->Tree.region), *this);
     }
     return this->Found;
   }

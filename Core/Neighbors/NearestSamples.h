@@ -55,7 +55,7 @@ public:
     this->Bound = std::numeric_limits<double>::infinity();
     if (!this->Tree.isEmpty() && count > 0)
     {
-      this->visit(SampleTree<TSample>::rootNode, gapTo(this->Tree.region, place));
+      this->visit(rootNode, gapTo(this->Tree.region, place));
     }
     std::sort(this->Heap.begin(), this->Heap.end());
     return this->IsComplete;
@@ -97,7 +97,7 @@ private:
     }
   }
 
-  /// Nodes beyond are not judged until enough samples are known: they may be the whole tree.
+  /// Until enough samples are known, the search ends here: it could miss the whole tree otherwise.
   void miss(std::size_t nodeIndex)
   {
     this->IsComplete = false;

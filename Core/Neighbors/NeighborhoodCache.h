@@ -60,7 +60,7 @@ private:
     {
       const auto node = static_cast<std::size_t>(neighborhoods[i]);
       this->Offsets[node] = static_cast<TId>(begin + i + 1);
-      i += 2 + static_cast<std::size_t>(neighborhoods[i + 1]);
+      i += 2 + neighborhoods[i + 1];
     }
   }
 

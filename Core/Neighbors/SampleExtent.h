@@ -55,7 +55,7 @@ public:
       box.lower[axis] = std::max(this->Tree.region.lower[axis], center[axis] - half);
       box.upper[axis] = std::min(this->Tree.region.upper[axis], center[axis] + half);
     }
-    searchRegion(this->Tree, SampleTree<TSample>::rootNode, box, *this);
+    searchRegion(this->Tree, rootNode, box, *this);
   }
 
   double extent() const { return std::min({ this->Above, this->Below, this->Query.enough }); }
@@ -212,10 +212,10 @@ public:
   {
   }
 
-  /// The support in direction D: how far samples extend from a position along D. On each side of
-  /// the tangent plane, this is the largest component along D of the offsets to samples within 45
-  /// degrees of D and the search radius; the result is the smaller of the two, at most
-  /// query.enough, and 0 without samples. Independent of tree refinement. Thread-safe.
+  /// How far samples extend from a position in direction D. On each side of the tangent plane: the
+  /// largest component along D of the offsets to samples within 45 degrees of D and the search
+  /// radius, 0 without samples. The result is the smaller of both sides, at most query.enough.
+  /// Independent of tree refinement. Thread-safe.
   /// Complexity: O(log n) if samples extend far enough; else O(log n + nodes within the search
   /// radius + samples of unsplit nodes whose bounding box extends farther than the samples found)
   /// @throws std::bad_alloc; MissingNode at a node whose samples another rank holds

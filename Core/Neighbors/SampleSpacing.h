@@ -29,8 +29,7 @@ public:
   /// O(log n) mostly. @throws MissingNode at a node whose samples another rank holds
   bool hasAny()
   {
-    return searchRegion(
-      this->Tree, SampleTree<TSample>::rootNode, this->needed(this->Tree.region), *this);
+    return searchRegion(this->Tree, rootNode, this->needed(this->Tree.region), *this);
   }
 
   bool add(std::size_t nodeIndex) const
@@ -64,7 +63,7 @@ public:
   /// @throws MissingNode at a node whose samples another rank holds
   double find()
   {
-    searchRegion(this->Tree, SampleTree<TSample>::rootNode, this->Tree.region, *this);
+    searchRegion(this->Tree, rootNode, this->Tree.region, *this);
     return this->Radius;
   }
 
@@ -97,9 +96,8 @@ private:
 
   bool isKnown(const TSample& sample) const
   {
-    const auto end = this->Nearest.begin() + static_cast<std::ptrdiff_t>(this->Count);
     return haveOnePosition(sample, this->Sample) ||
-           std::any_of(this->Nearest.begin(), end,
+           std::any_of(this->Nearest.data(), this->Nearest.data() + this->Count,
              [&](const Near& near) { return haveOnePosition(*near.sample, sample); });
   }
 

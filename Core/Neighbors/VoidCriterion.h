@@ -9,12 +9,11 @@
 namespace isopoint
 {
 
-/// Rejects edges that span a void: that another criterion rejects, and that have an empty ball
-/// around one of the seven points which divide them into eight equal parts. The ball's radius is a
-/// factor times the spacing, which is the distance to the tenth nearest position, the larger of
-/// both ends. Long edges of slivers on the convex hull pass, because samples inside are close to
-/// them. Edges from rim to rim, with nothing behind either end, need no other criterion if a ball
-/// of two spacings is empty and the samples around both ends extend along the edge.
+/// Rejects edges that span a void: those that another criterion rejects and that have an empty
+/// ball. Balls are around the seven points that divide an edge into eight equal parts; their radius
+/// is a factor times the spacing, the distance from an end to the tenth nearest position, the
+/// larger of both ends. Long edges of slivers on the convex hull pass, because samples are close to
+/// them. Edges from rim to rim need no other criterion: see joinsRims().
 template <class TCriterion>
 class VoidCriterion
 {
@@ -25,7 +24,7 @@ public:
   {
   }
 
-  /// As GapCriterion::rejects().
+  /// Whether an edge is rejected. Symmetric; throws and takes time as GapCriterion::rejects().
   /// @param spacing the greater spacing of the two ends
   template <class TSample>
   bool rejects(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& own,
@@ -42,8 +41,9 @@ public:
   }
 
 private:
-  /// Whether an edge goes from rim to rim. Between layers or lines, where the samples around an end
-  /// do not extend along it, it is ordinary.
+  /// Whether an edge goes from rim to rim: a ball of two spacings is empty, nothing is behind
+  /// either end, and the samples around both ends extend along the edge, unlike between layers or
+  /// lines.
   template <class TSample>
   static bool joinsRims(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds,
     const TSample& own, const TSample& other, double spacing)
@@ -56,7 +56,8 @@ private:
            extendsAlong(tree, own, edge) && extendsAlong(tree, other, edge);
   }
 
-  /// Whether one of the samples nearest to an end is as far from it along the edge as the nearest.
+  /// Whether one of the ten nearest positions is as far from an end, measured along the edge, as
+  /// the nearest one is in any direction.
   template <class TSample>
   static bool extendsAlong(const SampleTree<TSample>& tree, const TSample& end, const Vector& edge)
   {

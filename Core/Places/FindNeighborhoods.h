@@ -16,17 +16,17 @@
 namespace isopoint
 {
 
-/// Numbers a few of many places in tree order, ascending from 0.
-class PlaceNumbers
+/// Numbers a few of many tree indices, ascending from 0.
+class TreeIndexNumbers
 {
 public:
-  explicit PlaceNumbers(std::size_t placeCount)
-    : Words(placeCount / wordSize + 1, 0)
+  explicit TreeIndexNumbers(std::size_t count)
+    : Words(count / wordSize + 1, 0)
     , Before(this->Words.size(), 0)
   {
   }
 
-  void add(std::size_t place) { this->Words[place / wordSize] |= bitOf(place); }
+  void add(std::size_t treeIndex) { this->Words[treeIndex / wordSize] |= bitOf(treeIndex); }
 
   /// After all are added. @returns how many there are
   std::size_t finish()
@@ -40,18 +40,21 @@ public:
     return count;
   }
 
-  std::size_t at(std::size_t place) const
+  std::size_t at(std::size_t treeIndex) const
   {
-    const std::uint64_t lower = this->Words[place / wordSize] & (bitOf(place) - 1);
-    return this->Before[place / wordSize] + std::bitset<wordSize>(lower).count();
+    const std::uint64_t lower = this->Words[treeIndex / wordSize] & (bitOf(treeIndex) - 1);
+    return this->Before[treeIndex / wordSize] + std::bitset<wordSize>(lower).count();
   }
 
 private:
   static constexpr std::size_t wordSize = 64;
-  static std::uint64_t bitOf(std::size_t place) { return std::uint64_t{ 1 } << place % wordSize; }
+  static std::uint64_t bitOf(std::size_t treeIndex)
+  {
+    return std::uint64_t{ 1 } << treeIndex % wordSize;
+  }
 
   std::vector<std::uint64_t> Words;
-  std::vector<std::size_t> Before; // number of places in former words
+  std::vector<std::size_t> Before; // number of indices in former words
 };
 
 /// See IsosurfaceExtractor::findNeighborhoods().
@@ -61,7 +64,7 @@ Neighborhoods neighborhoodsOf(const Execution& execution, const SampleTree<TSamp
 {
   struct Found
   {
-    std::size_t begin; // in tree order
+    std::size_t begin; // tree index
     std::size_t count; // of coincident samples
 
     bool operator<(const Found& other) const { return this->begin < other.begin; }
@@ -76,7 +79,7 @@ Neighborhoods neighborhoodsOf(const Execution& execution, const SampleTree<TSamp
   result.kinds.resize(places.size());
   result.reaches.resize(places.size());
   std::vector<std::size_t> counts(places.size());
-  std::vector<std::size_t> found(needed * places.size()); // places in tree order
+  std::vector<std::size_t> found(needed * places.size()); // tree indices
   std::vector<double> weights(isLinear ? laneCount * found.size() : 0);
   std::vector<Found> coincident;
   std::mutex mutex;
@@ -105,7 +108,7 @@ Neighborhoods neighborhoodsOf(const Execution& execution, const SampleTree<TSamp
     });
   keepUnique(coincident);
 
-  PlaceNumbers numbers(tree.samples.size());
+  TreeIndexNumbers numbers(tree.samples.size());
   result.begins.assign(1, 0);
   for (std::size_t place = 0; place < places.size(); ++place)
   {
@@ -124,7 +127,7 @@ Neighborhoods neighborhoodsOf(const Execution& execution, const SampleTree<TSamp
   result.around.resize(result.begins.back());
   result.weights.resize(isLinear ? laneCount * result.around.size() : 0);
   result.positions.resize(positions);
-  std::vector<std::size_t> inTree(positions); // places in tree order
+  std::vector<std::size_t> inTree(positions); // tree indices
   for (std::size_t place = 0; place < places.size(); ++place)
   {
     for (std::size_t i = 0; i < counts[place]; ++i)

@@ -135,14 +135,12 @@ bool PlaceEvaluator::read(const ProbedArray& array, const NearbySamples& around)
       array.read(around.ids.data(), around.ids.size(), static_cast<int>(c), this->Numbers.data());
       for (std::size_t i = 0; i < count; ++i)
       {
-        const auto first = this->Numbers.begin() + static_cast<std::ptrdiff_t>(around.idBegins[i]);
-        const auto last = std::remove_if(first,
-          this->Numbers.begin() + static_cast<std::ptrdiff_t>(around.idBegins[i + 1]),
+        double* const first = this->Numbers.data() + around.idBegins[i];
+        double* const last = std::remove_if(first, this->Numbers.data() + around.idBegins[i + 1],
           [](double number) { return !std::isfinite(number); });
-        values[i] = first == last
-                      ? std::numeric_limits<double>::quiet_NaN()
-                      : meanOf(static_cast<std::size_t>(last - first),
-                          [&](std::size_t k) { return first[static_cast<std::ptrdiff_t>(k)]; });
+        values[i] = first == last ? std::numeric_limits<double>::quiet_NaN()
+                                  : meanOf(static_cast<std::size_t>(last - first),
+                                      [first](std::size_t k) { return first[k]; });
       }
     }
     for (std::size_t i = 0; i < count; ++i)

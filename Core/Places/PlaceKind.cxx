@@ -67,10 +67,8 @@ double squaredSpacing(const Offsets& offsets)
       const Vector apart = offset - offsets.all[0];
       return dot(apart, apart);
     });
-  const auto wanted =
-    squared.begin() + static_cast<std::ptrdiff_t>(std::min(neighbor, offsets.count - 1));
-  std::nth_element(
-    squared.begin(), wanted, squared.begin() + static_cast<std::ptrdiff_t>(offsets.count));
+  double* const wanted = squared.data() + std::min(neighbor, offsets.count - 1);
+  std::nth_element(squared.data(), wanted, squared.data() + offsets.count);
   return *wanted;
 }
 
@@ -123,8 +121,7 @@ std::uint8_t placeKinds(const std::vector<Vector>& offsets)
   Offsets nearest;
   nearest.count = std::min(offsets.size(), countForKinds);
   const double unit = lengthOf(offsets[nearest.count - 1]);
-  std::transform(offsets.begin(), offsets.begin() + static_cast<std::ptrdiff_t>(nearest.count),
-    nearest.all.begin(),
+  std::transform(offsets.data(), offsets.data() + nearest.count, nearest.all.data(),
     [unit](const Vector& offset) { return unit > 0.0 ? 1.0 / unit * offset : offset; });
   const std::optional<PrincipalAxes> axes = flatAxes(nearest);
   const std::uint8_t kind = axes ? PlaceFlat : 0;

@@ -111,13 +111,8 @@ private:
   bool isFar(const Vector& place) const
   {
     const Region& region = this->Tree.region;
-    double beyond = 0.0;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      beyond =
-        std::max({ beyond, region.lower[axis] - place[axis], place[axis] - region.upper[axis] });
-    }
-    return beyond > lengthOf(region.upper - region.lower);
+    const Vector gap = gapTo(region, place);
+    return *std::max_element(gap.begin(), gap.end()) > lengthOf(region.upper - region.lower);
   }
 
   const SampleTree<TSample>& Tree;
@@ -132,7 +127,7 @@ private:
 template <class TSample>
 std::size_t nodeAround(const SampleTree<TSample>& tree, const Vector& place)
 {
-  std::size_t index = SampleTree<TSample>::rootNode;
+  std::size_t index = rootNode;
   while (tree.nodes[index].isSplit() && !tree.nodes[index].isBucket)
   {
     const Node<TSample>& node = tree.nodes[index];

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 namespace isopoint
@@ -21,11 +22,8 @@ public:
     : Processes(processes)
     , Asked(itemCounts.size())
   {
-    std::vector<std::uint64_t> begins(1, 0);
-    for (const std::uint64_t count : itemCounts)
-    {
-      begins.push_back(begins.back() + count);
-    }
+    std::vector<std::uint64_t> begins(itemCounts.size() + 1, 0);
+    std::partial_sum(itemCounts.begin(), itemCounts.end(), begins.begin() + 1);
     for (const std::uint64_t id : ids)
     {
       const std::size_t rank = rankAt(begins, id);

@@ -14,7 +14,7 @@ namespace isopoint
 {
 
 /// A node whose samples are spread over the ranks; each has a consecutive range, in any order.
-struct DealtNode
+struct DistributedNode
 {
   std::size_t nodeIndex;
   Region region;
@@ -50,7 +50,7 @@ public:
   /// per coordinate where they coincide.
   /// @param nodes of at least two samples each
   /// @throws std::bad_alloc, FailedElsewhere
-  std::vector<MiddleSample> find(const std::vector<DealtNode>& nodes)
+  std::vector<MiddleSample> find(const std::vector<DistributedNode>& nodes)
   {
     this->begin(nodes);
     for (;;)
@@ -80,7 +80,7 @@ private:
   /// The search for a node's middle among the samples with keys in an interval.
   struct Search
   {
-    const DealtNode* node;
+    const DistributedNode* node;
     int axis;
     int stage;                           // which key is compared
     std::uint64_t low;                   // first key of the interval
@@ -91,10 +91,10 @@ private:
     std::vector<std::size_t> candidates; // this rank's, unless it is whole
   };
 
-  void begin(const std::vector<DealtNode>& nodes)
+  void begin(const std::vector<DistributedNode>& nodes)
   {
     this->Searches.clear();
-    for (const DealtNode& node : nodes)
+    for (const DistributedNode& node : nodes)
     {
       Search search{ &node, node.region.longestSide(), 0, 0, 0, node.count / 2, node.count, true,
         {} };
@@ -152,12 +152,7 @@ private:
 
   static int shiftFor(const Search& search, int bits)
   {
-    int shift = 0;
-    while (((search.high - search.low) >> shift) >> bits != 0)
-    {
-      ++shift;
-    }
-    return shift;
+    return std::max(0, highestBit((search.high - search.low) | 1) + 1 - bits);
   }
 
   void count(const std::vector<std::size_t>& open, std::vector<std::uint64_t>& counts)
@@ -236,7 +231,7 @@ private:
     for (std::size_t i = 0; i < result.size(); ++i)
     {
       result[i].axis = this->Searches[i].axis;
-      std::copy_n(keys.begin() + static_cast<std::ptrdiff_t>(4 * i), 4, result[i].keys.begin());
+      std::copy_n(keys.data() + 4 * i, 4, result[i].keys.begin());
     }
     return result;
   }

@@ -96,7 +96,7 @@ private:
       {
         const auto index = in.read<BinaryIndex>();
         const int depth = in.read<int>();
-        std::vector<Region> boxes(static_cast<std::size_t>(in.read<std::uint64_t>()));
+        std::vector<Region> boxes(in.read<std::uint64_t>());
         in.read(boxes.data(), boxes.size());
         writer.write(index, depth, boxes, answers[rank]);
       }

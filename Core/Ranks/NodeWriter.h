@@ -225,7 +225,7 @@ private:
     Node<TSample>& node = this->Tree.nodes[nodeIndex];
     node.axis = in.read<std::uint8_t>();
     node.plane = in.read<double>();
-    const std::size_t middle = node.begin + static_cast<std::size_t>(in.read<std::uint64_t>());
+    const std::size_t middle = node.begin + in.read<std::uint64_t>();
     node.childPair = static_cast<typename TSample::Id>(pair);
     node.isAbsent = false;
     node.isLeaf = false;

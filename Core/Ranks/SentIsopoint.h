@@ -33,7 +33,7 @@ SentEnd sentEnd(const SampleTree<TSample>& tree, std::size_t leaf)
 template <class TSample>
 std::size_t leafAt(const SampleTree<TSample>& tree, const SentEnd& end)
 {
-  std::size_t nodeIndex = SampleTree<TSample>::rootNode;
+  std::size_t nodeIndex = rootNode;
   while (tree.nodes[nodeIndex].isSplit())
   {
     const Node<TSample>& node = tree.nodes[nodeIndex];
@@ -88,7 +88,7 @@ inline LocalFit readFit(ByteReader& in)
   {
     fit.order = static_cast<FitOrder>(order);
   }
-  fit.creases.resize(static_cast<std::size_t>(in.read<std::uint64_t>()));
+  fit.creases.resize(in.read<std::uint64_t>());
   in.read(fit.creases.data(), fit.creases.size());
   return fit;
 }

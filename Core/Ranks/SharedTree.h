@@ -57,7 +57,7 @@ public:
       }
       this->computeRanges();
     }
-    this->dealOut(count);
+    this->redistribute(count);
     return std::move(this->Result);
   }
 
@@ -82,15 +82,14 @@ private:
     SampleTree<TSample>& tree = this->Result.tree;
     tree.nodes.resize(2);
     tree.usedPairs = 1;
-    tree.nodes[SampleTree<TSample>::rootNode] = makeNode<TSample>(0, count);
+    tree.nodes[rootNode] = makeNode<TSample>(0, count);
     this->Processes.maximum(keys);
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       tree.region.upper[axis] = fromOrderedKey(keys[axis]);
       tree.region.lower[axis] = fromOrderedKey(~keys[3 + axis]);
     }
-    this->Level.push_back(
-      { SampleTree<TSample>::rootNode, tree.region, 0, this->Loaded.samples.size(), count });
+    this->Level.push_back({ rootNode, tree.region, 0, this->Loaded.samples.size(), count });
   }
 
   /// Positions of a node's samples relative to its middle sample.
@@ -125,7 +124,7 @@ private:
       fromOrderedKey(middle.keys[2]) };
   }
 
-  Sides sidesOf(const DealtNode& node, const MiddleSample& middle) const
+  Sides sidesOf(const DistributedNode& node, const MiddleSample& middle) const
   {
     const Vector coordinates = coordinatesOf(middle);
     const double infinity = std::numeric_limits<double>::infinity();
@@ -159,7 +158,7 @@ private:
 
   /// Combined over all ranks.
   std::vector<Sides> sidesOf(
-    const std::vector<DealtNode>& nodes, const std::vector<MiddleSample>& middles)
+    const std::vector<DistributedNode>& nodes, const std::vector<MiddleSample>& middles)
   {
     std::vector<std::uint64_t> sums;
     std::vector<std::uint64_t> maxima;
@@ -183,9 +182,10 @@ private:
   void splitLevel(const Execution& execution)
   {
     throwIfAborted(execution);
-    std::vector<DealtNode> nodes;
+    std::vector<DistributedNode> nodes;
     std::copy_if(this->Level.begin(), this->Level.end(), std::back_inserter(nodes),
-      [this](const DealtNode& node) { return !this->Result.tree.nodes[node.nodeIndex].isLeaf; });
+      [this](const DistributedNode& node)
+      { return !this->Result.tree.nodes[node.nodeIndex].isLeaf; });
     if (nodes.empty())
     {
       return;
@@ -193,9 +193,9 @@ private:
     MedianSearch<TSample> search(this->Processes, this->Loaded.samples.data(), this->IdCount);
     const std::vector<MiddleSample> middles = search.find(nodes);
     const std::vector<Sides> sides = this->sidesOf(nodes, middles);
-    std::vector<DealtNode> below;
+    std::vector<DistributedNode> below;
     std::size_t next = 0;
-    for (const DealtNode& node : this->Level)
+    for (const DistributedNode& node : this->Level)
     {
       if (this->Result.tree.nodes[node.nodeIndex].isLeaf)
       {
@@ -211,8 +211,8 @@ private:
   }
 
   /// Splits a node by the definition (docs/algorithm.md, section 3).
-  void splitNode(const DealtNode& node, const MiddleSample& middle, const Sides& sides,
-    std::vector<DealtNode>& below)
+  void splitNode(const DistributedNode& node, const MiddleSample& middle, const Sides& sides,
+    std::vector<DistributedNode>& below)
   {
     SampleTree<TSample>& tree = this->Result.tree;
     const double coordinate = fromOrderedKey(middle.keys[0]);
@@ -244,7 +244,7 @@ private:
     parent.plane = splittingPlaneBetween(last, first);
     parent.axis = static_cast<std::uint8_t>(middle.axis);
     parent.childPair = static_cast<typename TSample::Id>(pair);
-    const std::size_t globalMiddle = parent.begin + static_cast<std::size_t>(lowerCount);
+    const std::size_t globalMiddle = parent.begin + lowerCount;
     tree.nodes[parent.lowerNode()] = makeNode<TSample>(parent.begin, globalMiddle);
     tree.nodes[parent.upperNode()] = makeNode<TSample>(globalMiddle, parent.end);
     this->Split.push_back(node.nodeIndex);
@@ -288,7 +288,7 @@ private:
   }
 
   /// The owner of a subtree: the rank whose equal share of all samples contains its middle.
-  std::size_t ownerOf(const DealtNode& node, std::uint64_t all) const
+  std::size_t ownerOf(const DistributedNode& node, std::uint64_t all) const
   {
     const auto begin = static_cast<double>(this->Result.tree.nodes[node.nodeIndex].begin);
     const double middle =
@@ -298,7 +298,7 @@ private:
   }
 
   /// Sends each sample to the owner of its subtree.
-  void dealOut(std::uint64_t all)
+  void redistribute(std::uint64_t all)
   {
     const auto ranks = static_cast<std::size_t>(this->Processes.size());
     const auto own = static_cast<std::size_t>(this->Processes.rank());
@@ -308,7 +308,7 @@ private:
     this->Result.begins.assign(ranks + 1, 0);
     for (std::size_t i = 0; i < this->Level.size(); ++i)
     {
-      const DealtNode& node = this->Level[i];
+      const DistributedNode& node = this->Level[i];
       const std::size_t owner = this->ownerOf(node, all);
       partsOf[owner].push_back(i);
       counts[owner].push_back(node.end - node.begin);
@@ -369,7 +369,7 @@ private:
     {
       if (round < partsOf[rank].size())
       {
-        const DealtNode& node = this->Level[partsOf[rank][round]];
+        const DistributedNode& node = this->Level[partsOf[rank][round]];
         const std::size_t count = node.end - node.begin;
         from[rank] = { this->Loaded.samples.data() + node.begin + slice.begin(count),
           slice.length(count) * sizeof(TSample) };
@@ -380,7 +380,7 @@ private:
       std::size_t next = tree.nodes[this->Level[partsOf[own][round]].nodeIndex].begin;
       for (std::size_t rank = 0; rank < partsOf.size(); ++rank)
       {
-        const auto count = static_cast<std::size_t>(arriving[rank][round]);
+        const std::size_t count = arriving[rank][round];
         to[rank] = { tree.samples.data() + next + slice.begin(count),
           slice.length(count) * sizeof(TSample) };
         next += count;
@@ -391,7 +391,7 @@ private:
     {
       if (round < partsOf[rank].size())
       {
-        const DealtNode& node = this->Level[partsOf[rank][round]];
+        const DistributedNode& node = this->Level[partsOf[rank][round]];
         const std::size_t count = node.end - node.begin;
         this->Loaded.samples.discard(
           node.begin + slice.begin(count), node.begin + slice.end(count));
@@ -418,8 +418,8 @@ private:
   SampleTree<TSample> Loaded;
   std::uint64_t IdCount;
   SharedTree<TSample> Result;
-  std::vector<DealtNode> Level;   // nodes of the current level, and leaves above it
-  std::vector<std::size_t> Split; // nodes, parents first
+  std::vector<DistributedNode> Level; // nodes of the current level, and leaves above it
+  std::vector<std::size_t> Split;     // nodes, parents first
 };
 
 } // namespace isopoint

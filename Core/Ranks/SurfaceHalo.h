@@ -55,7 +55,7 @@ public:
   {
     this->indexOwn();
     this->Received.resize(static_cast<std::size_t>(this->Ranks.processes().size()));
-    this->Given.resize(this->Received.size());
+    this->Sent.resize(this->Received.size());
     std::vector<std::size_t> ends = endsOf(this->Own.leaves);
     for (int ring = 0; ring < rings; ++ring)
     {
@@ -144,10 +144,10 @@ public:
   template <class T>
   void share(std::vector<T>& ofAll)
   {
-    std::vector<std::vector<T>> outgoing(this->Given.size());
-    for (std::size_t rank = 0; rank < this->Given.size(); ++rank)
+    std::vector<std::vector<T>> outgoing(this->Sent.size());
+    for (std::size_t rank = 0; rank < this->Sent.size(); ++rank)
     {
-      for (const std::size_t isopoint : this->Given[rank])
+      for (const std::size_t isopoint : this->Sent[rank])
       {
         outgoing[rank].push_back(ofAll[this->OwnIndices[isopoint]]);
       }
@@ -267,7 +267,7 @@ private:
     for (const std::size_t isopoint : isopoints)
     {
       appendIsopoint(answer, this->Tree, this->Own, isopoint);
-      this->Given[rank].push_back(isopoint);
+      this->Sent[rank].push_back(isopoint);
     }
   }
 
@@ -374,7 +374,7 @@ private:
   std::vector<OwnEnd> OwnEnds;
   std::unordered_set<std::size_t> Requested;       // leaves
   std::vector<std::vector<SentIsopoint>> Received; // from each rank, in order of arrival
-  std::vector<std::vector<std::size_t>> Given;     // to each rank, in order of sending
+  std::vector<std::vector<std::size_t>> Sent;      // to each rank, in order of sending
   std::vector<IsopointEdge> Surrounded;            // received with the inner rings
   Isosurface All;
   std::vector<std::size_t> OwnIndices; // of this rank's isopoints among all

@@ -42,7 +42,7 @@ public:
   void replace(const Execution& execution, const Reader& read)
   {
     throwIfAborted(execution);
-    this->visit(SampleTree<TSample>::rootNode);
+    this->visit(rootNode);
     const std::vector<std::vector<Id>> asked = this->Processes.exchange(this->questions());
     std::vector<std::vector<Value>> answers;
     answers.reserve(asked.size());
@@ -59,7 +59,7 @@ public:
       recomputeRanges(this->Tree, this->Tree.nodes[node], maximumDepth + 1);
     }
     this->fetchRanges();
-    this->uniteFrom(SampleTree<TSample>::rootNode);
+    this->uniteFrom(rootNode);
   }
 
 private:
@@ -128,7 +128,7 @@ private:
       [&](std::size_t i)
       {
         typename TSample::Coordinate position[3];
-        read(static_cast<std::size_t>(ids[i]), position, values[i]);
+        read(ids[i], position, values[i]);
       });
     return values;
   }

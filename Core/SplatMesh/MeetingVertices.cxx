@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <set>
 
 namespace isopoint
@@ -130,8 +129,7 @@ std::vector<Entry> verticesByCell(
 std::vector<std::size_t> meetingVertices(
   const Execution& execution, const std::vector<SplatVertex>& vertices)
 {
-  std::vector<std::size_t> meetsAt(vertices.size());
-  std::iota(meetsAt.begin(), meetsAt.end(), 0);
+  std::vector<std::size_t> meetsAt = numbersBelow(vertices.size());
   const auto firstOf = [&meetsAt](std::size_t vertex)
   {
     while (meetsAt[vertex] != vertex)
@@ -156,8 +154,8 @@ std::vector<std::size_t> meetingVertices(
     {
       begin = end = i;
     }
-    const auto last = entries.begin() + static_cast<std::ptrdiff_t>(end);
-    const auto other = std::find_if(entries.begin() + static_cast<std::ptrdiff_t>(begin), last,
+    const Entry* const last = entries.data() + end;
+    const Entry* const other = std::find_if(entries.data() + begin, last,
       [&](const Entry& earlier)
       { return coincide(vertices[earlier.second], vertices[entry.second]); });
     if (other != last)

@@ -7,16 +7,6 @@
 namespace isopoint
 {
 
-namespace
-{
-
-double rootOfSquares(double a, double b)
-{
-  return std::sqrt(a * a + b * b);
-}
-
-} // namespace
-
 void makeTriangles(SplatFan& fan, bool isClosed)
 {
   const std::size_t others = fan.vertexCount - 1;
@@ -61,7 +51,8 @@ SplatFan fanOf(const Vector& position, const Vector& normal, const Vector& axis,
     {
       continue; // unused corners repeat the last one
     }
-    steepest = std::max({ steepest, rootOfSquares(corner[3], corner[4]), std::abs(corner[2]) });
+    const double slope = std::sqrt(corner[3] * corner[3] + corner[4] * corner[4]);
+    steepest = std::max({ steepest, slope, std::abs(corner[2]) });
     fan.positions[next] = offset;
     fan.normals[next] =
       unitNormal(normal + scale * corner[3] / radius * axis + scale * corner[4] / radius * across);

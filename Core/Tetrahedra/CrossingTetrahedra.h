@@ -25,15 +25,15 @@ namespace isopoint
 
 struct TetrahedraCounts
 {
-  std::size_t band = 0; // samples near the surface
-  std::size_t size = 0; // samples tetrahedralized in the end
+  std::size_t atSurface = 0; // samples of leaves near the surface
+  std::size_t size = 0;      // samples tetrahedralized in the end
   std::size_t rounds = 0;
   bool isWhole = false; // whether these are all samples
 };
 
 /// Finds the crossing tetrahedra of the Delaunay tetrahedralization of all samples, without
 /// building it. See docs/triangles.md for the proof.
-/// With a process group, all functions are collective: every rank tetrahedralizes the whole band,
+/// With a process group, all functions are collective: every rank inserts the samples of all,
 /// searches spheres for its own samples only, and finds all crossing tetrahedra.
 /// @tparam TRanks SingleRank, or SharedRanks
 template <class TSample, class TRanks>
@@ -42,8 +42,8 @@ class CrossingTetrahedraFinder
 public:
   /// @param tree refined around the isovalue (see NarrowBand); is refined further
   /// @param values of the tree's leaves
-  /// @param kept the band of an earlier search in this tree, or null; replaced by the new band, or
-  /// by null if that is large or the search fails
+  /// @param kept of an earlier search in this tree, or null; receives what to keep of this one:
+  /// null if that is large or the search fails
   CrossingTetrahedraFinder(const Execution& execution, SampleTree<TSample>& tree, TRanks& ranks,
     LeafValues<TSample>& values, double isovalue, std::unique_ptr<KeptTetrahedra>& kept)
     : Run(execution)
@@ -69,9 +69,9 @@ public:
     return found;
   }
 
-  /// For bodies: certifies the crossing tetrahedra and the crossing facets of the hull, the outside
-  /// being below, and then calls explore(), which may use triangulation() and certifyTargets().
-  /// Coplanar samples have no body.
+  /// For bodies: counts the outside as below, certifies the crossing tetrahedra and facets of the
+  /// hull, then calls explore(), which may use triangulation() and certifyTargets(). Coplanar
+  /// samples have no body.
   /// @param nodes as above
   /// @throws as find(), and what explore throws
   template <class Explore>
@@ -88,8 +88,8 @@ public:
     }
   }
 
-  /// Certifies the tetrahedra that the triangulation aims at; inserts samples in their spheres,
-  /// which replaces them, until none are left.
+  /// Certifies the targets of the triangulation. Samples in their spheres are inserted, which
+  /// replaces the targets, until all spheres are empty.
   void certifyTargets()
   {
     while (!this->Current->isWhole)
@@ -114,15 +114,15 @@ private:
   bool certifyCrossing(const std::vector<BinaryIndex>& nodes)
   {
     std::vector<std::size_t> leaves = this->leavesAtSurface(nodes);
-    this->Counts.band = static_cast<std::size_t>(this->Ranks.sum(leaves.size()));
+    this->Counts.atSurface = this->Ranks.sum(leaves.size());
     this->gather(leaves);
-    if (leaves.empty() && !this->IsBody) // on all ranks; the kept band may serve the next isovalue
+    if (leaves.empty() && !this->IsBody) // on all ranks; the next isovalue may use what is kept
     {
       return false;
     }
     this->begin(leaves);
     this->triangulation().setOutsideBelow(this->IsBody);
-    if (!this->Current->isWhole && this->areMany(this->Counts.band))
+    if (!this->Current->isWhole && this->areMany(this->Counts.atSurface))
     {
       this->insertAll();
     }
@@ -144,7 +144,7 @@ private:
     return true;
   }
 
-  /// Keeps the band for the next isovalue if it is small.
+  /// Keeps the triangulation for the next isovalue if it is small.
   void finish()
   {
     this->Counts.size = this->triangulation().size();
@@ -241,9 +241,9 @@ private:
     leaves = inTreeOrder(this->Run, this->Tree, leaves);
   }
 
-  /// Reuses the kept band if it contains at least a quarter of the leaves and, except for bodies,
-  /// whose borders change little, not many others. Otherwise begins a new one. `Kept` is null
-  /// meanwhile, because updates may fail.
+  /// Reuses the kept triangulation if it has at least a quarter of the leaves and at most three
+  /// samples per leaf; bodies, whose borders change little, have no such limit. Otherwise starts a
+  /// new one. `Kept` is null meanwhile, because updates may fail.
   /// @param leaves gathered
   void begin(const std::vector<std::size_t>& leaves)
   {
@@ -255,8 +255,8 @@ private:
       this->Current = std::make_unique<KeptTetrahedra>(unitOfSamples(this->Run, this->Tree));
       return;
     }
-    this->triangulation().setSides(this->Run, [this](std::uint64_t leaf)
-      { return this->Values.at(static_cast<std::size_t>(leaf)) < this->Isovalue; });
+    this->triangulation().setSides(
+      this->Run, [this](std::uint64_t leaf) { return this->Values.at(leaf) < this->Isovalue; });
   }
 
   bool isOfUse(const std::vector<std::size_t>& leaves)
@@ -291,7 +291,7 @@ private:
     this->insert(leaves);
   }
 
-  /// Marks leaves as members of the band. @returns the new ones
+  /// Marks leaves as inserted. @returns the new ones
   std::vector<Site> newSites(const std::vector<std::size_t>& leaves)
   {
     std::vector<Site> sites;
@@ -318,7 +318,7 @@ private:
 
   void insertAll()
   {
-    splitCompletely(this->Run, this->Tree, { SampleTree<TSample>::rootNode });
+    splitCompletely(this->Run, this->Tree, { rootNode });
     std::vector<std::size_t> leaves;
     this->forEachOwnEnd([&](std::size_t leaf) { leaves.push_back(leaf); });
     this->gatherAndInsert(std::move(leaves));
@@ -353,7 +353,7 @@ private:
   /// @param corner bits of the axes on whose upper side it is
   std::size_t endInCorner(unsigned corner) const
   {
-    std::size_t end = SampleTree<TSample>::rootNode;
+    std::size_t end = rootNode;
     while (this->Tree.nodes[end].isSplit())
     {
       const Node<TSample>& node = this->Tree.nodes[end];
@@ -367,12 +367,12 @@ private:
     return end;
   }
 
-  /// Inserts samples until the band is not coplanar, unless all samples are.
+  /// Inserts samples until they are not coplanar, unless all samples are.
   void spanSpace()
   {
     while (this->triangulation().size() > 0 && this->triangulation().dimension() < 3)
     {
-      const std::optional<std::size_t> node = this->nodeOffBand();
+      const std::optional<std::size_t> node = this->nodeOffPlane();
       std::vector<std::size_t> leaves;
       if (node && this->Tree.nodes[*node].isLeaf)
       {
@@ -390,8 +390,8 @@ private:
     }
   }
 
-  /// A node of this rank, without children, with a sample that would raise the band's dimension.
-  std::optional<std::size_t> nodeOffBand()
+  /// A node of this rank, without children, with a sample that would raise the dimension.
+  std::optional<std::size_t> nodeOffPlane()
   {
     std::optional<std::size_t> found;
     this->forEachOwnEnd(
@@ -437,9 +437,8 @@ private:
     std::vector<std::size_t> unsplit; // nodes to be split before a search is complete
   };
 
-  /// Searches the spheres of crossing cells. Certifies empty ones, and inserts the samples found in
-  /// the others. A cell whose sphere contains a sample of another rank is destroyed when that rank
-  /// inserts the sample.
+  /// Searches the spheres of open cells. An empty sphere certifies its cell; a sample found is
+  /// inserted, which destroys the cell. Samples of other ranks do so when their rank inserts them.
   /// @returns whether any cells remain uncertified
   bool certify()
   {
@@ -504,7 +503,7 @@ private:
     return all;
   }
 
-  /// Inserts samples whose values are not on the side of the isovalue that the band indicates.
+  /// Inserts samples whose values are not on the side of the isovalue that SideCheck expects.
   /// @returns whether there were any
   bool checkSides()
   {
@@ -541,9 +540,8 @@ private:
            static_cast<double>(leafCount) > manyShare * static_cast<double>(count);
   }
 
-  /// Whether searches took longer than inserting all samples would. The budget is smaller if they
-  /// are long on average, as in huge spheres through voids, since more of them follow. On several
-  /// ranks, each would insert all samples.
+  /// Whether searches took longer than inserting all samples would. Long searches, as in huge
+  /// spheres through voids, get a twelfth of the budget: more of them follow.
   bool isSpent() const
   {
     constexpr std::size_t longSearch = 500;

@@ -15,9 +15,8 @@
 namespace isopoint
 {
 
-/// The band, the tetrahedralized samples near a surface, with the results of tree searches: which
-/// tetrahedra are empty and which regions were searched. Valid for any isovalue and any values at
-/// the same positions.
+/// The tetrahedralization of the samples near the last surface, and what tree searches found:
+/// certified cells, searched regions. It serves any isovalue and any values at the same positions.
 struct KeptTetrahedra
 {
   explicit KeptTetrahedra(const CoordinateUnit& unit)
@@ -26,7 +25,7 @@ struct KeptTetrahedra
   }
 
   /// Whether it is worth keeping between extractions, beside a tree of this many samples. A sample
-  /// in the band takes 700 bytes, as much as about 30 in the tree.
+  /// here takes 700 bytes, as much as about 30 in the tree.
   bool isSmall(std::size_t sampleCount) const
   {
     constexpr std::size_t minRatio = 8;
@@ -40,10 +39,10 @@ struct KeptTetrahedra
   bool isWhole = false;         // whether all samples are in it
 };
 
-/// Sets a band to null. @throws Aborted, after which it is null, too
-inline void dropTetrahedra(const Execution& execution, std::unique_ptr<KeptTetrahedra>& band)
+/// Sets a pointer to null. @throws Aborted, after which it is null, too
+inline void dropTetrahedra(const Execution& execution, std::unique_ptr<KeptTetrahedra>& kept)
 {
-  if (const auto dropped = std::move(band))
+  if (const auto dropped = std::move(kept))
   {
     dropped->triangulation.clear(execution);
   }

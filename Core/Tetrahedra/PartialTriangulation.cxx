@@ -40,11 +40,9 @@ CrossingTetrahedron bySides(Cell cell)
   bool isOdd = false;
   for (std::size_t i = 0; i < result.belowCount; ++i)
   {
-    const std::size_t from = static_cast<std::size_t>(
-      std::find_if(corners.begin() + static_cast<std::ptrdiff_t>(i), corners.end(), isBelow) -
-      corners.begin());
-    std::swap(corners[i], corners[from]);
-    isOdd = isOdd != (i != from);
+    VertexInfo* const below = std::find_if(corners.data() + i, corners.data() + 4, isBelow);
+    isOdd = isOdd != (below != &corners[i]);
+    std::swap(corners[i], *below);
   }
   if (isOdd)
   {
@@ -53,7 +51,7 @@ CrossingTetrahedron bySides(Cell cell)
     std::swap(corners[first], corners[first + 1]);
   }
   std::transform(corners.begin(), corners.end(), result.corners.begin(),
-    [](const VertexInfo& corner) { return static_cast<std::size_t>(corner.leaf()); });
+    [](const VertexInfo& corner) { return corner.leaf(); });
   return result;
 }
 
@@ -115,13 +113,13 @@ public:
     this->Explored.push_back(cell);
   }
 
-  /// Numbers the explored tetrahedra from one on anew, in the order of their corners' tree indices.
+  /// Orders the explored tetrahedra from number `first` on by the tree indices of their corners.
   void orderExplored(const Execution& execution, std::size_t first,
     const std::function<std::uint64_t(std::uint64_t leaf)>& treeIndexOf)
   {
     using TreeIndices = std::array<std::uint64_t, 4>; // ascending
     const std::vector<Cell> cells(
-      this->Explored.begin() + static_cast<std::ptrdiff_t>(first), this->Explored.end());
+      this->Explored.data() + first, this->Explored.data() + this->Explored.size());
     const std::vector<TreeIndices> indices = tabulated<TreeIndices>(execution, cells.size(),
       [&](std::size_t i)
       {
@@ -475,7 +473,7 @@ FacetCorners PartialTriangulation::cornersOf(const ExploredFacet& facet) const
   {
     const VertexInfo& info =
       this->Inside->Explored[facet.tetrahedron]->vertex(outwardFacets[facet.corner][i])->info();
-    result.corners[i] = static_cast<std::size_t>(info.leaf());
+    result.corners[i] = info.leaf();
     result.areBelow[i] = info.isBelow();
   }
   return result;

@@ -58,17 +58,14 @@ struct FacetCorners
 using CellHandle = struct OpaqueCell*;
 
 /// The Delaunay tetrahedralization of a growing subset of the samples, by CGAL. Predicates are
-/// exact. If more than four samples lie on an empty sphere, the lexicographic order of positions
-/// decides. Therefore the result, and whether a position lies inside a sphere, depend only on the
+/// exact, and the lexicographic order of positions breaks ties, so that results depend only on the
 /// set of positions.
 ///
 /// A cell is a tetrahedron, or a facet of the convex hull with the half-space beyond it. A cell is
 /// *crossing* if some corners are below the isovalue and others are not. For bodies, the outside
 /// counts as below: then facets of the hull are crossing if a corner is not below.
-///
-/// *Explored* tetrahedra are those reached from crossing cells: first the crossing ones, then, step
-/// by step, those across some of their facets. They are certified, so insertions do not change
-/// them, and they have numbers from 0 on.
+/// *Explored* tetrahedra have numbers from 0 on: first the crossing ones, then, step by step, the
+/// *targets* across some of their facets. They are certified, so insertions do not change them.
 class PartialTriangulation
 {
 public:
@@ -134,22 +131,21 @@ public:
   /// From any thread. Fastest if consecutive positions are close.
   std::vector<bool> areBelow(const std::vector<Vector>& positions) const;
 
-  /// Explores the crossing tetrahedra, which must be certified, and nothing else; aims at the
-  /// tetrahedra behind crossing facets of the hull. @returns the number of tetrahedra
+  /// Explores the crossing tetrahedra, which must be certified, and nothing else. Targets are then
+  /// the tetrahedra behind crossing facets of the hull. @returns the number of tetrahedra
   /// @param treeIndexOf(leaf) new tetrahedra are numbered in the order of these, since that of
   /// cells depends on threads and ranks
   /// @throws std::bad_alloc, Aborted
   std::size_t beginExploring(const Execution& execution,
     const std::function<std::uint64_t(std::uint64_t leaf)>& treeIndexOf);
 
-  /// Targets at the tetrahedra across facets of explored ones.
+  /// Makes the tetrahedra across facets of explored ones the targets.
   void targetAcross(const std::vector<ExploredFacet>& facets);
 
-  /// Lists the tetrahedra aimed at that are not certified as open cells, once each.
-  /// @returns their number
+  /// The targets that are not certified, each once.
   std::vector<CellHandle> openTargets() const;
 
-  /// Explores the tetrahedra aimed at, which must be certified. @returns the number of all explored
+  /// Explores the targets, which must be certified. @returns the number of all explored
   /// @param treeIndexOf see beginExploring()
   /// @throws std::bad_alloc, Aborted
   std::size_t exploreTargets(const Execution& execution,
@@ -165,8 +161,8 @@ public:
   FacetCorners cornersOf(const ExploredFacet& facet) const;
   CrossingTetrahedron exploredTetrahedron(std::size_t tetrahedron) const;
 
-  /// Walks around an edge of a facet at the border of a body, through the body, to the facet of its
-  /// border that bounds the same wedge. From any thread. O(tetrahedra at the edge)
+  /// Turns from a facet at the border of a body around one of its edges, through the body, to the
+  /// next facet at the border. From any thread. O(tetrahedra at the edge)
   /// @param side of the facet: from corner `side` to the next
   /// @param areInGap explored tetrahedra that are not in the body
   ExploredFacet wedgeEnd(

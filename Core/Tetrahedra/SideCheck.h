@@ -14,9 +14,8 @@
 namespace isopoint
 {
 
-/// Once all crossing cells are certified, finds samples whose values are not on the side of the
-/// isovalue that the band's surface indicates at their positions. They show pieces of the surface
-/// where the band has no samples.
+/// Once all crossing cells are certified, finds samples on the wrong side of the surface: below the
+/// isovalue among vertices that are not, or the reverse. There, a piece of the surface is missing.
 /// If no searched sphere reaches a box of samples, the surface does not either, and testing one of
 /// its samples tests all. In a process group, each rank checks its own samples.
 template <class TSample>
@@ -39,8 +38,8 @@ public:
   std::vector<std::size_t> find(double isovalue)
   {
     this->Isovalue = isovalue;
-    const Summary root = this->collect(SampleTree<TSample>::rootNode, false);
-    this->addUnlessKnown(root, SampleTree<TSample>::rootNode);
+    const Summary root = this->collect(rootNode, false);
+    this->addUnlessKnown(root, rootNode);
     constexpr std::size_t grain = 512;
     return collected<std::size_t>(this->Run, { this->Queries.size(), 8 * grain, grain },
       [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
@@ -65,7 +64,7 @@ private:
   struct Summary
   {
     bool isClear; // no sphere reached its samples' bounding box, and all are on one side
-    bool isKnown; // one of its samples is in the band
+    bool isKnown; // one of its samples is a vertex
     bool isBelow; // the side, if clear
   };
 
@@ -130,7 +129,7 @@ private:
     return { false, false, false };
   }
 
-  /// Adds one sample to represent a clear node, unless the band contains one.
+  /// Adds one sample to represent a clear node, unless one is a vertex.
   void addUnlessKnown(const Summary& summary, std::size_t nodeIndex)
   {
     if (summary.isClear && !summary.isKnown)

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <type_traits>
 
 namespace isopoint
 {
@@ -66,6 +67,7 @@ struct Ball
 {
   T d;
   Triple<T> n;
+  T size; // positive unless the corners are degenerate
 };
 
 /// @param a3 another corner or, unless `isCorner`, a direction orthogonal to the center
@@ -78,7 +80,7 @@ Ball<T> ballOf(const Triple<T>& a1, const Triple<T>& a2, const Triple<T>& a3, bo
   const T h1 = dotOf(a1, a1);
   const T h2 = dotOf(a2, a2);
   const T d = dotOf(a1, c1);
-  Ball<T> ball{ d + d, {} };
+  Ball<T> ball{ d + d, {}, d + d };
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     ball.n[axis] = h1 * c1[axis] + h2 * c2[axis];
@@ -109,30 +111,50 @@ double scaleOf(const std::array<Vector, Count>& corners)
            : 1.0;
 }
 
-Triple<Bounded> offset(const Vector& from, const Vector& to, double scale)
-{
-  Triple<Bounded> result;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    result[axis] = bounded(scale * to[axis] - scale * from[axis]);
-  }
-  return result;
-}
-
 using Exact = CGAL::MP_Float;
 
-Triple<Exact> exactOffset(const Vector& from, const Vector& to, double scale)
+/// The offsets of corners from the first one, in numbers of type T.
+template <class T, std::size_t Count>
+std::array<Triple<T>, Count> offsetsOf(const std::array<Vector, Count>& corners, double scale)
 {
-  Triple<Exact> result;
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  std::array<Triple<T>, Count> offsets{};
+  for (std::size_t i = 1; i < Count; ++i)
   {
-    result[axis] = (Exact(to[axis]) - Exact(from[axis])) * Exact(scale);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double to = corners[i][axis];
+      const double from = corners[0][axis];
+      if constexpr (std::is_same_v<T, Exact>)
+      {
+        offsets[i][axis] = (Exact(to) - Exact(from)) * Exact(scale);
+      }
+      else
+      {
+        offsets[i][axis] = bounded(scale * to - scale * from);
+      }
+    }
   }
-  return result;
+  return offsets;
 }
 
-SphereFunction functionOf(const Vector& origin, double scale, const Ball<Bounded>& ball)
+/// Exact numbers, rounded once.
+Ball<Bounded> rounded(const Ball<Exact>& ball)
 {
+  const auto round = [](const Exact& number) { return bounded(CGAL::to_double(number)); };
+  return { round(ball.d), { round(ball.n[0]), round(ball.n[1]), round(ball.n[2]) }, {} };
+}
+
+/// The function of a ball: in doubles if these tell its size, else in exact numbers.
+/// @param makeBall(offsets) the ball through corners, given offsetsOf() them
+template <std::size_t Count, class MakeBall>
+SphereFunction functionOf(const std::array<Vector, Count>& corners, const MakeBall& makeBall)
+{
+  const double scale = scaleOf(corners);
+  Ball<Bounded> ball = makeBall(offsetsOf<Bounded>(corners, scale));
+  if (!(relativeError * ball.size.magnitude <= toleratedShare * ball.size.value))
+  {
+    ball = rounded(makeBall(offsetsOf<Exact>(corners, scale)));
+  }
   Vector n;
   Vector nError;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -140,70 +162,31 @@ SphereFunction functionOf(const Vector& origin, double scale, const Ball<Bounded
     n[axis] = ball.n[axis].value;
     nError[axis] = relativeError * ball.n[axis].magnitude;
   }
-  return { origin, scale, ball.d.value, relativeError * ball.d.magnitude, n, nError };
-}
-
-/// The function of a ball whose exact numbers are rounded once.
-SphereFunction functionOf(const Vector& origin, double scale, const Ball<Exact>& ball)
-{
-  return functionOf(origin, scale,
-    Ball<Bounded>{ bounded(CGAL::to_double(ball.d)),
-      { bounded(CGAL::to_double(ball.n[0])), bounded(CGAL::to_double(ball.n[1])),
-        bounded(CGAL::to_double(ball.n[2])) } });
-}
-
-bool isWellKnown(const Bounded& d)
-{
-  return relativeError * d.magnitude <= toleratedShare * d.value;
+  return { corners[0], scale, ball.d.value, relativeError * ball.d.magnitude, n, nError };
 }
 
 } // namespace
 
 SphereFunction ballAround(const TetrahedronCorners& corners)
 {
-  const Vector& origin = corners[0];
-  const double scale = scaleOf(corners);
-  const Ball<Bounded> ball = ballOf(offset(origin, corners[1], scale),
-    offset(origin, corners[2], scale), offset(origin, corners[3], scale), true);
-  if (isWellKnown(ball.d))
-  {
-    return functionOf(origin, scale, ball);
-  }
-  return functionOf(origin, scale,
-    ballOf(exactOffset(origin, corners[1], scale), exactOffset(origin, corners[2], scale),
-      exactOffset(origin, corners[3], scale), true));
+  return functionOf(corners, [](const auto& a) { return ballOf(a[1], a[2], a[3], true); });
 }
 
 SphereFunction halfSpaceBeyond(const HullFacetCorners& corners)
 {
-  const Vector& origin = corners[0];
-  const double scale = scaleOf(corners);
-  const Triple<Bounded> normal =
-    crossOf(offset(origin, corners[1], scale), offset(origin, corners[2], scale));
-  const Bounded length = dotOf(normal, normal);
-  if (isWellKnown(length))
-  {
-    return functionOf(origin, scale, Ball<Bounded>{ bounded(0.0), normal });
-  }
-  return functionOf(origin, scale,
-    Ball<Exact>{ Exact(0),
-      crossOf(exactOffset(origin, corners[1], scale), exactOffset(origin, corners[2], scale)) });
+  return functionOf(corners,
+    [](const auto& a)
+    {
+      const auto normal = crossOf(a[1], a[2]);
+      using T = std::decay_t<decltype(normal[0])>;
+      return Ball<T>{ T{}, normal, dotOf(normal, normal) };
+    });
 }
 
 SphereFunction ballThrough(const HullFacetCorners& corners)
 {
-  const Vector& origin = corners[0];
-  const double scale = scaleOf(corners);
-  const Triple<Bounded> a1 = offset(origin, corners[1], scale);
-  const Triple<Bounded> a2 = offset(origin, corners[2], scale);
-  const Ball<Bounded> ball = ballOf(a1, a2, crossOf(a1, a2), false);
-  if (isWellKnown(ball.d))
-  {
-    return functionOf(origin, scale, ball);
-  }
-  const Triple<Exact> exact1 = exactOffset(origin, corners[1], scale);
-  const Triple<Exact> exact2 = exactOffset(origin, corners[2], scale);
-  return functionOf(origin, scale, ballOf(exact1, exact2, crossOf(exact1, exact2), false));
+  return functionOf(
+    corners, [](const auto& a) { return ballOf(a[1], a[2], crossOf(a[1], a[2]), false); });
 }
 
 } // namespace isopoint

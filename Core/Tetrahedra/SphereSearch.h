@@ -24,15 +24,13 @@ namespace isopoint
 namespace nodemarks
 {
 
-/// The leaf's samples are a vertex of the band.
+/// The samples of this leaf are a vertex.
 inline constexpr std::uint8_t inserted = 1;
 
-/// The sphere of a crossing tetrahedron may reach the region of this leaf, or of this unsplit node
-/// of few samples.
+/// The sphere of a crossing cell may reach the region of this leaf or small unsplit node.
 inline constexpr std::uint8_t reached = 2;
 
-/// Such a sphere may reach the region of this node but needs none of its samples: none is inside,
-/// or one farther beyond the hull was found.
+/// Such a sphere may reach the region of this node, but needs none of its samples.
 inline constexpr std::uint8_t missed = 4;
 
 } // namespace nodemarks
@@ -130,16 +128,15 @@ private:
 /// Nodes with at most this many samples are searched without being split.
 constexpr std::size_t fewSamples = 16;
 
-/// Searches the tree for a sample inside the sphere of a cell, approximately nearest to the center
-/// first; beyond a facet of the hull, for the farthest. In a process group, only this rank's
-/// samples are searched. Reuses memory. For one thread.
+/// Finds a sample inside the sphere of a tetrahedron, mostly one near the center, or the sample
+/// farthest beyond a facet of the hull. In a process group, searches only this rank's samples.
+/// Reuses memory. For one thread.
 template <class TSample>
 class SphereSearch
 {
 public:
   /// @param boxes of the samples of some nodes, by index; computed on demand
-  /// @param isHullWanted whether many cells are on the hull of all samples, so that boxes are worth
-  /// their cost at once
+  /// @param isHullWanted whether many cells are on the hull of all samples: then boxes pay at once
   SphereSearch(const SampleTree<TSample>& tree, const PartialTriangulation& triangulation,
     NodeMarks& marks, ConcurrentMemo<Region>& boxes, bool isHullWanted)
     : Tree(tree)
@@ -151,8 +148,7 @@ public:
   {
   }
 
-  /// Finds a sample that is not inserted, inside the sphere of a cell, as above. Sets the
-  /// marks above.
+  /// Finds a sample for a cell, as above, that is not inserted yet. Sets the marks above.
   /// @returns its leaf. Nothing means that there is none if isComplete()
   std::optional<std::size_t> find(CellHandle cell)
   {
@@ -182,7 +178,7 @@ private:
     const typename TShape::Bounds bounds = boundsIn(shape, box);
     if (shape.mayHold(bounds))
     {
-      this->visit(SampleTree<TSample>::rootNode, shape, bounds, box);
+      this->visit(rootNode, shape, bounds, box);
     }
     return this->Found;
   }

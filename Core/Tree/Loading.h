@@ -22,8 +22,7 @@ namespace isopoint
 template <class TSample>
 bool isFinite(const TSample& sample)
 {
-  return std::isfinite(sample.position[0]) && std::isfinite(sample.position[1]) &&
-         std::isfinite(sample.position[2]) && std::isfinite(sample.value);
+  return isFinite(positionOf(sample)) && std::isfinite(sample.value);
 }
 
 /// Summary of the samples read from a slice of the input.
@@ -77,7 +76,7 @@ void makeRoot(SampleTree<TSample>& tree, const std::vector<SliceSummary<TSample>
     all.maximum = std::max(all.maximum, slice.maximum);
   }
   tree.region = all.region;
-  Node<TSample>& root = tree.nodes[SampleTree<TSample>::rootNode];
+  Node<TSample>& root = tree.nodes[rootNode];
   root = makeNode<TSample>(0, tree.samples.size());
   root.minimum = all.minimum;
   root.maximum = all.maximum;
@@ -245,7 +244,7 @@ void replaceValues(const Execution& execution, SampleTree<TSample>& tree, const 
         recomputeRanges(tree, tree.nodes[tops[i]], maximumDepth + 1);
       }
     });
-  recomputeRanges(tree, tree.nodes[SampleTree<TSample>::rootNode], topLevels);
+  recomputeRanges(tree, tree.nodes[rootNode], topLevels);
 }
 
 } // namespace isopoint

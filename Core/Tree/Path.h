@@ -31,7 +31,7 @@ template <class TSample>
 Path pathToRoot(const SampleTree<TSample>& tree)
 {
   Path path;
-  path.nodeIndices[0] = SampleTree<TSample>::rootNode;
+  path.nodeIndices[0] = rootNode;
   path.region = tree.region;
   return path;
 }

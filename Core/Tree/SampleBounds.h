@@ -49,7 +49,7 @@ public:
       [this]()
       {
         this->Boxes.resize(this->Tree.usedPairs);
-        this->boxOf(this->Tree.nodes[SampleTree<TSample>::rootNode],
+        this->boxOf(this->Tree.nodes[rootNode],
           [this](std::size_t pair, const Region& box) { this->Boxes[pair] = box; });
       });
   }
@@ -65,7 +65,7 @@ public:
       const auto* const position = this->Tree.samples[node.begin].position;
       return offsetsToBox(from, position, position);
     }
-    const auto pair = static_cast<std::size_t>(node.childPair);
+    const auto pair = node.childPair;
     const Region box = pair < this->Boxes.size()
                          ? this->Boxes[pair]
                          : this->BoxesOnDemand.at(pair, [&]()
@@ -85,7 +85,7 @@ private:
     }
     const Region box = united(this->boxOf(this->Tree.nodes[node.lowerNode()], note),
       this->boxOf(this->Tree.nodes[node.upperNode()], note));
-    note(static_cast<std::size_t>(node.childPair), box);
+    note(node.childPair, box);
     return box;
   }
 

@@ -80,7 +80,7 @@ struct Node
   bool isSplit() const { return this->childPair != 0; }
   std::size_t lowerNode() const { return 2 * static_cast<std::size_t>(this->childPair); }
   std::size_t upperNode() const { return this->lowerNode() + 1; }
-  std::size_t count() const { return static_cast<std::size_t>(this->end - this->begin); }
+  std::size_t count() const { return this->end - this->begin; }
 
   /// The end of the samples to look at for positions. Of a leaf, whose samples share one position,
   /// the first sample suffices.
@@ -103,6 +103,9 @@ struct MissingNode : std::exception
   Region box; // where samples are needed
 };
 
+/// The index of the root in SampleTree::nodes.
+constexpr std::size_t rootNode = 1;
+
 /// Samples in tree order, and the part of the kd-tree that the isovalues so far needed ([RL06]
 /// section 4; docs/algorithm.md, sections 3 and 9). A split only permutes samples within a node, so
 /// the tree can be refined at any time. Memory: sizeof(TSample) per sample, sizeof(Node) per node.
@@ -124,8 +127,6 @@ struct SampleTree
   bool isPartial = false;
   std::size_t ownBegin = 0;
   std::size_t ownEnd = std::numeric_limits<std::size_t>::max();
-
-  static constexpr std::size_t rootNode = 1;
 
   bool isEmpty() const { return this->samples.size() == 0; }
 

@@ -129,8 +129,7 @@ private:
   /// The order of new tetrahedra: the same for any number of threads and ranks.
   std::function<std::uint64_t(std::uint64_t)> treeIndexOfLeaf() const
   {
-    return [this](std::uint64_t leaf) -> std::uint64_t
-    { return this->Tree.nodes[static_cast<std::size_t>(leaf)].begin; };
+    return [this](std::uint64_t leaf) -> std::uint64_t { return this->Tree.nodes[leaf].begin; };
   }
 
   const Execution& Run;
@@ -183,14 +182,14 @@ private:
 
   const PartialTriangulation& cells() const { return this->Explored.cells(); }
 
-  /// Explores the weak tetrahedra connected with the isosurface or the hull; those connected with a
-  /// strong one among them are in gaps.
+  /// Explores weak tetrahedra outward from the isosurface and the hull. A connected set of them
+  /// with a strong one is a gap.
   void findGaps()
   {
     Spread ofWeak(this->Run, this->Ranks, this->Explored);
     ofWeak.spread(numbersBelow(this->Explored.size()), [this](const std::vector<std::size_t>& some)
       { return this->Edges.rejectedAmong(weakVoids(), some); });
-    const std::vector<char> areWeak = ofWeak.takeInGap();
+    const std::vector<char> areWeak = ofWeak.takeMarks();
     Spread ofStrong(this->Run, this->Ranks, this->Explored);
     ofStrong.spread(this->Edges.rejectedAmong(strongVoids(), markedOf(this->Run, areWeak)),
       [&](const std::vector<std::size_t>& some)
@@ -199,7 +198,7 @@ private:
           itemsThat(this->Run, some.size(), [&](std::size_t i) { return areWeak[some[i]] != 0; }));
       });
     ofStrong.dropFragments();
-    this->IsInGap = ofStrong.takeInGap();
+    this->IsInGap = ofStrong.takeMarks();
   }
 
   void collect(BodyTetrahedra& body) const

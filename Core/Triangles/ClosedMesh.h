@@ -18,10 +18,12 @@ struct ClosedTriangles
   std::vector<std::size_t> sources;       // of the triangles: their indices before
 };
 
-/// Makes triangles whose sides are paired a closed 2-manifold. Vertices at one point are merged:
-/// triangles that vanish are left out, and the sides beyond them become twins. Then vertices are
-/// repeated, one for each fan. Where several edges have the same two vertices nevertheless, their
-/// triangles are paired anew, which separates fans.
+/// Makes a closed 2-manifold of triangles with paired sides:
+/// 1. Merges the vertices at one point. Drops triangles that vanish, and pairs the sides beyond
+/// them.
+/// 2. Repeats a vertex for each of its fans.
+/// 3. If several edges still have the same two vertices, exchanges their twins, which separates
+/// fans, and repeats step 2.
 /// Complexity: O(n log n) for each round of pairing anew, mostly one
 /// @param twins of the sides of all triangles; each side has one
 /// @param pointOf by vertex of the triangles

@@ -67,23 +67,23 @@ public:
       });
     this->Edges = sortedUnique(this->Run, this->Edges, this->Whole.surface.size(),
       [](const Edge& edge) { return static_cast<std::uint64_t>(edge.first); });
-    std::vector<std::optional<Vector>> onEdges(this->Edges.size());
-    forBatches(this->Run, onEdges.size(), 256, 64,
+    std::vector<std::optional<Vector>> positions(this->Edges.size());
+    forBatches(this->Run, positions.size(), 256, 64,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t i = begin; i < end; ++i)
         {
-          onEdges[i] = this->positionOnCrease(this->Edges[i].first, this->Edges[i].second);
+          positions[i] = this->positionOnCrease(this->Edges[i].first, this->Edges[i].second);
         }
       });
-    this->OnEdges.resize(onEdges.size());
-    forEachInOrder(this->Run, onEdges.size(),
+    this->OnEdges.resize(positions.size());
+    forEachInOrder(this->Run, positions.size(),
       [&](std::size_t i)
       {
-        if (onEdges[i])
+        if (positions[i])
         {
           const auto& [a, b] = this->Edges[i];
-          this->OnEdges[i] = this->Whole.addVertex(a, *onEdges[i], { a, b });
+          this->OnEdges[i] = this->Whole.addVertex(a, *positions[i], { a, b });
         }
       });
     std::vector<Facet> parts;
@@ -114,18 +114,14 @@ private:
     }
     else if (count == 1)
     {
-      const auto edge = static_cast<std::size_t>(
-        std::find_if(onEdges.begin(), onEdges.end(), [](const auto& each) { return each; }) -
-        onEdges.begin());
+      const std::size_t edge = onEdges[0] ? 0 : onEdges[1] ? 1 : 2;
       const auto [a, b, c] = rotatedTo(edge);
       parts.push_back({ { a, *onEdges[edge], c }, this->Whole.normalOf({ a, c }) });
       parts.push_back({ { *onEdges[edge], b, c }, this->Whole.normalOf({ b, c }) });
     }
     else if (count == 2)
     {
-      const auto whole = static_cast<std::size_t>(
-        std::find_if(onEdges.begin(), onEdges.end(), [](const auto& each) { return !each; }) -
-        onEdges.begin());
+      const std::size_t whole = !onEdges[0] ? 0 : !onEdges[1] ? 1 : 2;
       const auto [a, b, c] = rotatedTo((whole + 2) % 3);
       this->addTwoPieces(a, b, c, *onEdges[(whole + 2) % 3], *onEdges[(whole + 1) % 3], parts);
     }

@@ -145,12 +145,10 @@ public:
   /// The number of a pair, ascending in the order of the tree.
   std::size_t numberOf(const LeafPair& pair) const
   {
-    const auto pairAt = [this](std::size_t begin)
-    { return this->Pairs.begin() + static_cast<std::ptrdiff_t>(begin); };
-    const auto leaf = static_cast<std::size_t>(pair.first);
-    const auto found =
-      std::lower_bound(pairAt(this->PairBegins[leaf]), pairAt(this->PairBegins[leaf + 1]), pair);
-    return static_cast<std::size_t>(found - this->Pairs.begin());
+    const LeafPair* const all = this->Pairs.data();
+    const LeafPair* const found = std::lower_bound(
+      all + this->PairBegins[pair.first], all + this->PairBegins[pair.first + 1], pair);
+    return static_cast<std::size_t>(found - all);
   }
 
   /// The pair whose vertex represents that of a pair: another one if it crosses at a sample.
@@ -252,10 +250,7 @@ private:
       });
   }
 
-  std::size_t leafOf(Id number) const
-  {
-    return static_cast<std::size_t>(this->Leaves[static_cast<std::size_t>(number)]);
-  }
+  std::size_t leafOf(Id number) const { return this->Leaves[number]; }
 
   std::vector<LeafPair> allPairs()
   {
@@ -278,8 +273,7 @@ private:
 
   static void add(const Polygon& polygon, std::vector<LeafPair>& pairs)
   {
-    pairs.insert(pairs.end(), polygon.pairs.begin(),
-      polygon.pairs.begin() + static_cast<std::ptrdiff_t>(polygon.count));
+    pairs.insert(pairs.end(), polygon.pairs.data(), polygon.pairs.data() + polygon.count);
   }
 
   void indexPairs()
@@ -290,11 +284,9 @@ private:
       [this](std::size_t i)
       {
         const auto leaf = static_cast<std::size_t>(this->Pairs[i].first);
-        const std::size_t last = i + 1 < this->Pairs.size()
-                                   ? static_cast<std::size_t>(this->Pairs[i + 1].first)
-                                   : this->Leaves.size();
-        std::fill(this->PairBegins.begin() + static_cast<std::ptrdiff_t>(leaf) + 1,
-          this->PairBegins.begin() + static_cast<std::ptrdiff_t>(last) + 1, i + 1);
+        const std::size_t last =
+          i + 1 < this->Pairs.size() ? this->Pairs[i + 1].first : this->Leaves.size();
+        std::fill(this->PairBegins.data() + leaf + 1, this->PairBegins.data() + last + 1, i + 1);
       });
   }
 
@@ -319,7 +311,7 @@ private:
     const double upperValue = this->Values.at(upperLeaf);
     const bool isSample = lower == upper;
     const double upwards = isSample ? 0.0 : edgeParameter(lowerValue, upperValue, this->Isovalue);
-    this->NearerEnds[vertex] = static_cast<std::size_t>(upwards <= 0.5 ? lower : upper);
+    this->NearerEnds[vertex] = upwards <= 0.5 ? lower : upper;
     const bool isLowerFirst = lowerSample.id < upperSample.id;
     const double downwards = isSample ? 0.0 : edgeParameter(upperValue, lowerValue, this->Isovalue);
     this->Edges[vertex] = isLowerFirst
@@ -364,7 +356,7 @@ private:
     const auto endOf = [this](std::size_t edge)
     {
       const auto& [lower, upper] = this->Pairs[edge];
-      return static_cast<std::size_t>(this->Ends[edge] == End::Lower ? lower : upper);
+      return this->Ends[edge] == End::Lower ? lower : upper;
     };
     const std::vector<std::size_t> merged = itemsThat(this->Run, this->Edges.size(),
       [this](std::size_t edge) { return this->Ends[edge] != End::Neither; });

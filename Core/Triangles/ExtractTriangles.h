@@ -49,15 +49,15 @@ public:
   /// @param tree is refined
   /// @param ranks SingleRank, or SharedRanks
   /// @param neighborhoods known neighborhoods of leaves
-  /// @param band see CrossingTetrahedraFinder
+  /// @param kept see CrossingTetrahedraFinder
   TriangleExtraction(const Execution& execution, SampleTree<TSample>& tree, TRanks& ranks,
-    const NeighborhoodCache<Id>& neighborhoods, std::unique_ptr<KeptTetrahedra>& band,
+    const NeighborhoodCache<Id>& neighborhoods, std::unique_ptr<KeptTetrahedra>& kept,
     const IsosurfaceRequest& request)
     : Run(execution)
     , Tree(tree)
     , Ranks(ranks)
     , Neighborhoods(neighborhoods)
-    , Kept(band)
+    , Kept(kept)
     , Request(request)
     , Values(tree)
   {
@@ -179,7 +179,7 @@ private:
       const std::vector<std::size_t> atCreases = markedOf(execution, areFixed);
       this->FitsAtCreases = chosenOf(execution, fits, atCreases);
       this->AreAtCreases = areFixed;
-      this->NumberAtCreases = inverseOf(execution, atCreases, fits.size());
+      this->CreaseFitIndices = inverseOf(execution, atCreases, fits.size());
     }
     else if (this->Request.caps)
     {
@@ -223,7 +223,7 @@ private:
         fits[vertex].position = mesh.positions[vertex];
         if (isKnown(vertex))
         {
-          fits[vertex] = this->FitsAtCreases[this->NumberAtCreases[mesh.firstMember(vertex)]];
+          fits[vertex] = this->FitsAtCreases[this->CreaseFitIndices[mesh.firstMember(vertex)]];
         }
       });
     const std::vector<std::size_t> unknown = itemsThat(execution, fits.size(),
@@ -364,8 +364,8 @@ private:
   // By crossing; the last two only once fits have found creases.
   std::vector<CrossingEdge<TSample>> Edges;
   std::vector<char> AreAtCreases;
-  std::vector<std::size_t> NumberAtCreases; // of these
-  std::vector<LocalFit> FitsAtCreases;      // by that number
+  std::vector<std::size_t> CreaseFitIndices; // into FitsAtCreases
+  std::vector<LocalFit> FitsAtCreases;       // by that number
   TetrahedraCounts Counts;
   std::size_t Dropped = 0;
 };

@@ -129,7 +129,7 @@ public:
                                       : this->Edges.rejectedAmong(RimCriterion(), some);
       });
     spread.dropFragments();
-    return spread.takeInGap();
+    return spread.takeMarks();
   }
 
 private:

@@ -230,7 +230,7 @@ private:
     {
       areMerged = contractibleParts(this->Run, mesh, parts, std::move(areMerged));
     } while ((this->KeepsRim || this->HasCaps) &&
-             this->separateInverting(mesh, parts, rim, placement, former, areMerged));
+             this->unmergeInverting(mesh, parts, rim, placement, former, areMerged));
     const auto isMerged = [&](std::size_t vertex) { return parts.isMarked(vertex, areMerged); };
     const auto rootOf = [&](std::size_t vertex) { return parts.rootOf(vertex, areMerged); };
     const std::vector<std::size_t> roots = itemsThat(
@@ -257,10 +257,10 @@ private:
     this->Result.positions = std::move(positions);
   }
 
-  /// Leaves parts unmerged whose merging would invert a triangle: any triangle if the rim stays,
-  /// else triangles of caps, which are flat.
-  /// @returns whether there were any; their neighbors may be no longer contractible
-  bool separateInverting(const SurfaceMesh& mesh, const VertexParts& parts, const CapRim& rim,
+  /// Unmerges parts whose merging would invert a triangle: any triangle if the rim stays, else one
+  /// of the caps, which are flat. @returns whether there were any: then neighbors may be no longer
+  /// contractible
+  bool unmergeInverting(const SurfaceMesh& mesh, const VertexParts& parts, const CapRim& rim,
     const Placement& placement, const std::vector<Vector>& former,
     std::vector<char>& areMerged) const
   {
@@ -381,13 +381,11 @@ private:
 
   void putNearestFirst(std::size_t vertex)
   {
-    const auto begin =
-      this->Result.members.begin() + static_cast<std::ptrdiff_t>(this->Result.memberBegins[vertex]);
-    const auto end = this->Result.members.begin() +
-                     static_cast<std::ptrdiff_t>(this->Result.memberBegins[vertex + 1]);
+    std::size_t* const begin = this->Result.members.data() + this->Result.memberBegins[vertex];
+    std::size_t* const end = this->Result.members.data() + this->Result.memberBegins[vertex + 1];
     const auto distanceOf = [&](std::size_t crossing)
     { return lengthOf(this->Crossings[crossing] - this->Result.positions[vertex]); };
-    const auto nearest = std::min_element(
+    std::size_t* const nearest = std::min_element(
       begin, end, [&](std::size_t a, std::size_t b) { return distanceOf(a) < distanceOf(b); });
     std::rotate(begin, nearest, nearest + 1);
   }

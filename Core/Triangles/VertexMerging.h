@@ -42,8 +42,8 @@ struct CrossingMesh
 };
 
 /// Merges crossings to about one vertex per sample next to the surface ([TPG99]), and then short
-/// edges, if the topology allows: docs/triangles.md, "Regularization". Triangles between three kept
-/// vertices stay, and the shape of caps: see CapRim. The result depends only on the order of
+/// edges, if the topology allows: docs/triangles.md, "Regularization". Triangles between three
+/// fixed vertices and the shape of caps (see CapRim) stay. The result depends only on the order of
 /// vertices and triangles.
 /// Complexity: O(n log n)
 /// @throws std::bad_alloc, Aborted

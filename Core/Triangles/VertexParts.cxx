@@ -97,8 +97,7 @@ private:
       [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& found)
       {
         std::vector<std::size_t> ring;
-        std::copy_if(suspects.begin() + static_cast<std::ptrdiff_t>(begin),
-          suspects.begin() + static_cast<std::ptrdiff_t>(end), std::back_inserter(found),
+        std::copy_if(suspects.data() + begin, suspects.data() + end, std::back_inserter(found),
           [&](std::size_t part) { return this->AreMerged[part] && !this->isSurface(part, ring); });
       });
   }
@@ -142,9 +141,8 @@ private:
       });
   }
 
-  /// Whether the triangles around a merged part form a (half) disk, without a gap or a loop where
-  /// triangles become edges. Then the neighbors of the part are one cycle of at least three
-  /// vertices or, at a border, one path, and each occurs once.
+  /// Whether the triangles around a merged part form a disk or half a disk: its neighbors are one
+  /// cycle of at least three vertices or, at a border, one path, and each occurs once.
   /// @param ring reused memory
   bool isSurface(std::size_t part, std::vector<std::size_t>& ring) const
   {

@@ -31,7 +31,7 @@ std::size_t expectTheDefinition(const clouds::Cloud& cloud)
 {
   const bruteforce::Tree expected(cloud);
   auto tree = loadSamples<WideSample>({}, cloud.size(), clouds::readerOf(cloud));
-  splitCompletely({}, tree, { SampleTree<WideSample>::rootNode });
+  splitCompletely({}, tree, { rootNode });
   SampleBounds<WideSample> bounds(tree);
   std::map<std::uint64_t, std::size_t> leafOf; // by id
   Path path = pathToRoot(tree);

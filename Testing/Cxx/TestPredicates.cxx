@@ -11,8 +11,8 @@ namespace
 {
 
 using namespace isopoint;
-using band::Kernel;
-using band::Point;
+using cgal::Kernel;
+using cgal::Point;
 using clouds::Random;
 using Exact = CGAL::Exact_predicates_inexact_constructions_kernel;
 

@@ -25,7 +25,7 @@ struct HalfSpace
   double at(const ExtentQuery& query) const
   {
     const double along = query.direction[0];
-    return along > 0.1 ? std::min(query.enough, -query.place[0] / along) : query.enough;
+    return along > 0.1 ? std::min(query.enough, -query.position[0] / along) : query.enough;
   }
   const WideSample* nearest(const ExtentQuery&) const { return nullptr; }
   const WideSample* nearestTo(const Vector&, double) const { return nullptr; }

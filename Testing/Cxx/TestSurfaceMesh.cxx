@@ -140,7 +140,7 @@ void changeAtRandom(SurfaceMesh& mesh, clouds::Dice& dice, std::size_t count)
     if (dice(4) > 0 && c != d && !mesh.hasEdge(c, d))
     {
       mesh.flip(side);
-      mesh.turn(side / 3);
+      mesh.rotateCorners(side / 3);
     }
     else if (common == 2 && own.size() >= 4 && !mesh.isOpen(mesh.startOf(side)))
     {
