@@ -212,10 +212,9 @@ try_wheel()
 try_programs()
 {
   local target=x86_64-windows-gnu build=$root/build-x86_64 own=Testing/Cxx/PrintResults.cxx
-  local googletest=("$folder"/googletest/src/gtest{-all,_main}.cc)
-  compile_all "$target" "$own" Testing/Library/TestLibrary.cxx "${googletest[@]}"
-  link "$target" "$folder/win_amd64/TestLibrary.exe" "$folder/$target/isopoint.lib" -- \
-    Testing/Library/TestLibrary.cxx "${googletest[@]}"
+  local tests=("$folder"/googletest/src/gtest{-all,_main}.cc Testing/Library/TestLibrary{,Calls,Places,Splats}.cxx)
+  compile_all "$target" "$own" "${tests[@]}"
+  link "$target" "$folder/win_amd64/TestLibrary.exe" "$folder/$target/isopoint.lib" -- "${tests[@]}"
   windows "$folder/win_amd64/TestLibrary.exe" --gtest_brief=1
   link "$target" "$folder/win_amd64/PrintResults.exe" -- "$own" "${core_sources[@]}" \
     "$onetbb"/src/tbb/*.cpp Utilities/bundled_allocation.cxx
