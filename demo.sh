@@ -16,21 +16,17 @@ and comparison.png is written as well.
 END
 }
 
-if [[ ${1-} == --help ]]; then
-  usage
-  exit
-fi
+source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+source "$source_dir/Utilities/steps.sh"
+handle_help "$@"
 filter=points
 if [[ ${1-} == --triangles ]]; then
   filter=triangles
   shift
 fi
 if (($# != 0 && $# != 3)) || [[ ${1-samples} == '' || ${1-} == -* ]]; then
-  usage >&2
-  exit 2
+  fail_with_usage
 fi
-source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-source "$source_dir/Utilities/steps.sh"
 "$source_dir/Utilities/prepare.sh" release
 # In the environment, since pvbatch interprets arguments that begin with a minus itself.
 export ISOPOINTS_FILTER=$filter ISOPOINTS_FILE=${1-} ISOPOINTS_ARRAY=${2-} ISOPOINTS_ISOVALUE=${3-}

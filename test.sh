@@ -9,17 +9,15 @@ usage()
 usage: $0 [--quick] [OPTION...]
 Builds the project in build/release, where demo.sh builds it too, and runs all its tests. With CI=true in
 the environment a build folder that is made anew stops at warnings of the compiler.
-  --quick   builds and runs only the quick tests: C++ programs that end within seconds
+  --quick   builds and runs only the quick tests, without a display, that end within seconds
 Other options are those of ctest, for example --tests-regex '^TestSplats' or --label-regex rendering;
 ctest --help lists them.
 END
 }
 
-if [[ ${1-} == --help ]]; then
-  usage
-  exit
-fi
 cd "$(dirname "${BASH_SOURCE[0]}")"
+source Utilities/steps.sh
+handle_help "$@"
 targets=(all tests)
 options=()
 if [[ ${1-} == --quick ]]; then

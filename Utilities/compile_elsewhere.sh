@@ -18,16 +18,14 @@ Targets, all by default: ${targets[*]}
 END
 }
 
-if [[ ${1-} == --help ]]; then
-  usage
-  exit
-fi
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source Utilities/steps.sh
+handle_help "$@"
 (($# == 0)) || targets=("$@")
 if [[ " ${targets[*]}" == *' aarch64-linux-'* ]] && ! command -v qemu-aarch64 > /dev/null; then
   echo "$0: install qemu-user and libc6-arm64-cross" >&2
   exit 1
 fi
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source Utilities/zig.sh
 export folder=$PWD/build/elsewhere onetbb=
 

@@ -15,17 +15,11 @@ picture of the screen.
 END
 }
 
-if [[ ${1-} == --help ]]; then
-  usage
-  exit
-fi
-if (($# > 1)); then
-  usage >&2
-  exit 2
-fi
+source "$(dirname "${BASH_SOURCE[0]}")/steps.sh"
+handle_help "$@"
+(($# <= 1)) || fail_with_usage
 data=${1:+$(realpath "$1")}
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-source Utilities/steps.sh
 Utilities/prepare.sh release
 
 root=$PWD

@@ -14,19 +14,12 @@ folder that is configured with CI=true in the environment stops at the first war
 END
 }
 
-if [[ ${1-} == --help ]]; then
-  usage
-  exit
-fi
-if (($# == 0)); then
-  usage >&2
-  exit 2
-fi
+source "$(dirname "${BASH_SOURCE[0]}")/steps.sh"
+handle_help "$@"
+(($# > 0)) || fail_with_usage
 preset=$1
 shift
-source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-cd "$source_dir"
-source Utilities/steps.sh
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 if ! command -v dpkg-query > /dev/null; then
   echo "$0: this is not a Debian system. Install the equivalents of the packages that" >&2

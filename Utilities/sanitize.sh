@@ -3,7 +3,8 @@
 # Runs all C++ tests under the sanitizers, and the fuzz targets; see the usage below.
 set -euo pipefail
 
-if [[ ${1-} == --help ]]; then
+usage()
+{
   cat << END
 usage: $0 [PRESET...]
 Builds presets and runs their tests:
@@ -12,9 +13,11 @@ Builds presets and runs their tests:
   fuzz     the fuzz targets of the core and of the filter, one minute each
 Without arguments all three, which takes over an hour on two cores.
 END
-  exit
-fi
+}
+
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source Utilities/steps.sh
+handle_help "$@"
 
 (($# > 0)) || set -- address thread fuzz
 for preset; do

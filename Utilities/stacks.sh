@@ -16,14 +16,10 @@ default: ${stacks[*]}
 END
 }
 
-if [[ ${1-} == --help ]]; then
-  usage
-  exit
-fi
-if (($# == 0)) || ((EUID != 0)); then
-  usage >&2
-  exit 2
-fi
+source "$(dirname "${BASH_SOURCE[0]}")/steps.sh"
+handle_help "$@"
+(($# > 0)) || fail_with_usage
+need_root
 folder=$(realpath "$1")
 shift
 if (($# > 0)); then

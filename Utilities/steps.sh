@@ -11,16 +11,35 @@ step()
   echo "== $title: $((SECONDS - start)) s"
 }
 
-# expect_debian_11 ARGUMENT...: exits with the script's usage() if that is asked for, without arguments, and
-# unless this is root in Debian 11.
-expect_debian_11()
+# handle_help ARGUMENT...: prints the script's usage() and exits if that is asked for.
+handle_help()
 {
   if [[ ${1-} == --help ]]; then
     usage
     exit
   fi
-  if (($# == 0)) || ((EUID != 0)) || [[ $(. /etc/os-release && echo "${VERSION_ID-}") != 11 ]]; then
-    usage >&2
+}
+
+# Exits with the script's usage(), because its arguments are wrong.
+fail_with_usage()
+{
+  usage >&2
+  exit 2
+}
+
+need_root()
+{
+  if ((EUID != 0)); then
+    echo "$0: run this as root" >&2
     exit 2
   fi
+}
+
+# expect_debian_11 ARGUMENT...: exits if help is asked for, without arguments, and unless this is root in Debian 11.
+expect_debian_11()
+{
+  handle_help "$@"
+  (($# > 0)) || fail_with_usage
+  need_root
+  [[ $(. /etc/os-release && echo "${VERSION_ID-}") == 11 ]] || fail_with_usage
 }

@@ -14,14 +14,10 @@ debootstrap and 3 GiB.
 END
 }
 
-if [[ ${1-} == --help ]]; then
-  usage
-  exit
-fi
-if (($# != 3)) || ((EUID != 0)); then
-  usage >&2
-  exit 2
-fi
+source "$(dirname "${BASH_SOURCE[0]}")/steps.sh"
+handle_help "$@"
+(($# == 3)) || fail_with_usage
+need_root
 folder=$(realpath "$1")
 root=$folder/$2-package
 package=$3

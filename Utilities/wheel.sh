@@ -18,14 +18,10 @@ Platforms, all by default: ${platforms[*]}
 END
 }
 
-if [[ ${1-} == --help ]]; then
-  usage
-  exit
-fi
-if (($# == 0)) || ((EUID != 0)); then
-  usage >&2
-  exit 2
-fi
+source "$(dirname "${BASH_SOURCE[0]}")/steps.sh"
+handle_help "$@"
+(($# > 0)) || fail_with_usage
+need_root
 folder=$(realpath "$1")
 shift
 (($# == 0)) || platforms=("$@")
@@ -40,7 +36,6 @@ for platform in "${platforms[@]}"; do
 done
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source Utilities/roots.sh
-source Utilities/steps.sh
 
 root=$folder/bullseye-wheel
 step "Making $root" make_root bullseye "$root"
