@@ -2,20 +2,22 @@
 # package: ${FILTER_PROPERTIES_DIR}/NAME.xml.
 set(FILTER_PROPERTIES_DIR "${CMAKE_BINARY_DIR}/properties")
 set(filter_templates ScatteredFilter ScatteredProbe ScatteredGradient ScatteredSlice ScatteredBody)
-foreach (template IN LISTS filter_templates ITEMS CommonSamples CommonProperties)
+set(common_parts Samples Interpolation Properties Hints)
+list(TRANSFORM common_parts PREPEND Common OUTPUT_VARIABLE common_templates)
+foreach (template IN LISTS filter_templates common_templates)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "Plugin/${template}.xml.in")
 endforeach ()
-file(READ "${PROJECT_SOURCE_DIR}/Plugin/CommonSamples.xml.in" common_samples)
-file(READ "${PROJECT_SOURCE_DIR}/Plugin/CommonProperties.xml.in" common_properties)
 
-# configure_filter(template class name label kinds...) inserts what the templates share for @samples@ and
-# @properties@. Then it drops what is between <KIND> and </KIND> unless the filter is of this kind, and what is
-# between <not_KIND> and </not_KIND> if it is.
+# configure_filter(template class name label kinds...) inserts what the templates share, CommonPART.xml.in for
+# @PART@. Then it drops what is between <KIND> and </KIND> unless the filter is of this kind, and what is between
+# <not_KIND> and </not_KIND> if it is.
 set(FILTER_NAMES)
 function (configure_filter template class name label)
   file(READ "${PROJECT_SOURCE_DIR}/Plugin/${template}.xml.in" text)
-  string(REPLACE "@samples@\n" "${common_samples}" text "${text}")
-  string(REPLACE "@properties@\n" "${common_properties}" text "${text}")
+  foreach (part IN LISTS common_parts)
+    file(READ "${PROJECT_SOURCE_DIR}/Plugin/Common${part}.xml.in" common)
+    string(REPLACE "@${part}@\n" "${common}" text "${text}")
+  endforeach ()
   string(ASCII 1 begin)
   string(ASCII 2 end)
   foreach (kind IN ITEMS points triangles dataset line grid contour array surface)

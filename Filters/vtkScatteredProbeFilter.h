@@ -69,7 +69,7 @@ public:
   ///@{
   /**
    * How values are computed from the samples around:
-   * - BLEND: the mean of fits of degree three to zero, weighted by their estimated errors.
+   * - BLEND: the mean of four fits of degree one to three, weighted by their estimated errors.
    * - CUBIC, QUADRATIC, AFFINE: a fit of this degree, by weighted least squares.
    * - NEAREST: the value of the nearest sample. Arrays keep their types.
    *
