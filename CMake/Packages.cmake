@@ -23,7 +23,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
   "A ParaView plugin, VTK modules and a Python package that extract isosurfaces, as points with
- normals and radii or as triangles, from samples without a mesh.")
+ normals and radii or as triangles, slices, values and bodies from samples without a mesh.")
 # Adds the libraries linked, including the version of ParaView.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
