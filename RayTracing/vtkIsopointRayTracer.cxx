@@ -53,7 +53,7 @@ public:
 };
 vtkStandardNewMacro(vtkIsopointFunctionPass);
 
-/// The offset of a part of a picture, in pixels from the lower left.
+/// A part of a picture, in pixels from the lower left.
 struct Tile
 {
   std::size_t column = 0;
@@ -73,8 +73,8 @@ double shareOf(
 /// Whether a window is part of another one, up to a small part of a pixel. Grabbing the picture of
 /// a window changes the camera's angle and restores it inexactly.
 /// @param x, y, width, height as shares of the other window
-bool isPart(const raytracing::Window& part, const raytracing::Window& whole, double x, double y,
-  double width, double height)
+bool isWindowPart(const raytracing::Window& part, const raytracing::Window& whole, double x,
+  double y, double width, double height)
 {
   constexpr double most = 1e-6; // of the window's width and height
   const isopoint::Vector corner = whole.at(x, y);
@@ -91,8 +91,9 @@ bool isPart(const raytracing::Window& part, const raytracing::Window& whole, dou
   return difference <= most * size;
 }
 
-/// Whether a camera with a window of this size sees a picture, or a tile of it.
-bool isPart(const raytracing::Camera& camera, const int* size, const raytracing::Picture& picture,
+/// Finds what a camera with a window of this size sees of a picture.
+/// @returns whether that is the picture or a tile of it
+bool findTile(const raytracing::Camera& camera, const int* size, const raytracing::Picture& picture,
   const raytracing::Camera& whole, Tile& tile)
 {
   const double width = picture.getWidth();
@@ -108,7 +109,10 @@ bool isPart(const raytracing::Camera& camera, const int* size, const raytracing:
   tile = { static_cast<std::size_t>(column), static_cast<std::size_t>(row),
     static_cast<std::size_t>(size[0]), static_cast<std::size_t>(size[1]) };
   const auto isPartOf = [&](const raytracing::Window& part, const raytracing::Window& window)
-  { return isPart(part, window, column / width, row / height, size[0] / width, size[1] / height); };
+  {
+    return isWindowPart(
+      part, window, column / width, row / height, size[0] / width, size[1] / height);
+  };
   return isPartOf(camera.nearWindow, whole.nearWindow) &&
          isPartOf(camera.farWindow, whole.farWindow);
 }
@@ -237,7 +241,7 @@ bool vtkIsopointRayTracer::Internals::Trace(vtkIsopointRayTracer* self, vtkRende
   state.Add(stateOf(*this->View, renderer), self->SamplesPerPixel, self->AmbientLight,
     self->AmbientDistance, self->Shadows, self->MaximumNumberOfBounces);
   if (isNewScene || !this->Picture || this->PictureState != state.Get() ||
-      !isPart(this->View->Camera, size, *this->Picture, this->PictureCamera, this->Shown))
+      !findTile(this->View->Camera, size, *this->Picture, this->PictureCamera, this->Shown))
   {
     this->Picture.reset();
     this->Picture = std::make_unique<raytracing::Picture>(static_cast<std::uint32_t>(size[0]),
@@ -291,13 +295,12 @@ void vtkIsopointRayTracer::Internals::Draw(vtkOpenGLRenderWindow* window)
   const std::size_t height = this->Shown.height;
   std::vector<float> colors(4 * width * height);
   std::vector<float> depths(width * height);
-  constexpr double half = 0.5;
   for (std::size_t row = 0; row < height; ++row)
   {
-    const double y = (static_cast<double>(row) + half) / static_cast<double>(height);
+    const double y = (static_cast<double>(row) + 0.5) / static_cast<double>(height);
     for (std::size_t column = 0; column < width; ++column)
     {
-      const double x = (static_cast<double>(column) + half) / static_cast<double>(width);
+      const double x = (static_cast<double>(column) + 0.5) / static_cast<double>(width);
       const std::size_t i = row * width + column;
       const std::size_t traced = this->IndexOf(column, row);
       const raytracing::Radiance pixel = this->Picture->pixel(traced);
@@ -314,8 +317,6 @@ void vtkIsopointRayTracer::Internals::Write(const int* size, vtkImageData* image
   image->SetDimensions(size[0], size[1], 1);
   image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
   auto* bytes = static_cast<unsigned char*>(image->GetScalarPointer());
-  constexpr float half = 0.5f;
-  constexpr float white = 255.0f;
   for (int y = 0; y < size[1]; ++y)
   {
     for (int x = 0; x < size[0]; ++x)
@@ -323,12 +324,12 @@ void vtkIsopointRayTracer::Internals::Write(const int* size, vtkImageData* image
       const raytracing::Radiance pixel = this->Picture->pixel(
         this->IndexOf(static_cast<std::size_t>(x), static_cast<std::size_t>(y)));
       const raytracing::Color background =
-        this->View->Environment.behind((static_cast<float>(x) + half) / static_cast<float>(size[0]),
-          (static_cast<float>(y) + half) / static_cast<float>(size[1]));
+        this->View->Environment.behind((static_cast<float>(x) + 0.5f) / static_cast<float>(size[0]),
+          (static_cast<float>(y) + 0.5f) / static_cast<float>(size[1]));
       const raytracing::Color color = pixel.color + (1.0f - pixel.alpha) * background;
       for (const float value : { color.x, color.y, color.z })
       {
-        *bytes++ = static_cast<unsigned char>(std::lround(white * std::clamp(value, 0.0f, 1.0f)));
+        *bytes++ = static_cast<unsigned char>(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f)));
       }
     }
   }

@@ -47,8 +47,7 @@ raytracing::Texture textureOf(vtkTexture* texture)
   result.width = static_cast<std::uint32_t>(size[0]);
   result.height = static_cast<std::uint32_t>(size[1]);
   result.pixels.resize(static_cast<std::size_t>(size[0]) * size[1]);
-  constexpr double white = 255.0;
-  const double unit = pixels->GetDataType() == VTK_UNSIGNED_CHAR ? 1.0 / white : 1.0;
+  const double unit = pixels->GetDataType() == VTK_UNSIGNED_CHAR ? 1.0 / 255.0 : 1.0;
   const int last = pixels->GetNumberOfComponents() - 1;
   for (std::size_t i = 0; i < result.pixels.size(); ++i)
   {
@@ -111,8 +110,7 @@ void vtkIsopointTracedView::SetLights(
     renderer->CreateLight();
   }
   renderer->UpdateLightsGeometryToFollowCamera();
-  constexpr double half = 0.5;
-  const double extent = std::tan(half * vtkMath::RadiansFromDegrees(lightAngle));
+  const double extent = std::tan(0.5 * vtkMath::RadiansFromDegrees(lightAngle));
   vtkCollectionSimpleIterator iterator;
   lights->InitTraversal(iterator);
   while (vtkLight* const light = lights->GetNextLight(iterator))
@@ -173,8 +171,7 @@ void vtkIsopointTracedView::SetEnvironment(vtkRenderer* renderer, double aspect)
   environment.right = vtkToTracedVector(view->Element[0]);
   environment.up = vtkToTracedVector(view->Element[1]);
   environment.ahead = -vtkToTracedVector(view->Element[2]);
-  constexpr double half = 0.5;
-  const double tangent = std::tan(half * vtkMath::RadiansFromDegrees(camera->GetViewAngle()));
+  const double tangent = std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()));
   const bool isHorizontal = camera->GetUseHorizontalViewAngle() != 0;
   environment.tangentX = static_cast<float>(isHorizontal ? tangent : tangent * aspect);
   environment.tangentY = static_cast<float>(isHorizontal ? tangent / aspect : tangent);
@@ -193,6 +190,5 @@ double vtkIsopointTracedView::GetDepth(double x, double y, double distance) cons
     origin[2] + scale * offset[2], 1.0 };
   double clip[4];
   this->SceneToClip->MultiplyPoint(place, clip);
-  constexpr double half = 0.5;
-  return std::clamp(half + half * clip[2] / clip[3], 0.0, 1.0);
+  return std::clamp(0.5 + 0.5 * clip[2] / clip[3], 0.0, 1.0);
 }

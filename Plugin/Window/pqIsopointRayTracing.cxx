@@ -157,11 +157,10 @@ bool pqIsopointRayTracing::show(double share)
     this->Dialog.reset();
     return true;
   }
-  constexpr int all = 100;
   if (!this->Dialog)
   {
     this->Dialog = std::make_unique<QProgressDialog>(
-      "Tracing rays...", QString(), 0, all, pqCoreUtilities::mainWidget());
+      "Tracing rays...", QString(), 0, 100, pqCoreUtilities::mainWidget());
     this->Dialog->setObjectName("RayTracingProgress");
     this->Dialog->setCancelButton(new QPushButton("Stop"));
     this->Bar = new QProgressBar; // setValue() of the dialog, unlike this, processes events
@@ -170,7 +169,7 @@ bool pqIsopointRayTracing::show(double share)
     this->Dialog->setWindowModality(Qt::ApplicationModal);
     this->Dialog->show();
   }
-  this->Bar->setValue(static_cast<int>(std::floor(all * share)));
+  this->Bar->setValue(static_cast<int>(std::floor(100 * share)));
   processInput();
   return !this->Dialog->wasCanceled();
 }

@@ -216,7 +216,6 @@ Color PathTracer::shadePhysical(const Shading& shading) const
     return mixed({ share, share, share }, metalReflectance(cosine, hit.color), material.metallic);
   };
 
-  // Diffuse reflection and highlights of lights.
   const float before = shading.path.roughness;
   const Microfacets highlights(
     std::min(1.0f, std::max({ material.roughness, minRoughnessOfHighlights,
@@ -237,8 +236,16 @@ Color PathTracer::shadePhysical(const Shading& shading) const
   {
     sum += opaque * this->ambient(shading);
   }
+  this->addSurroundings(shading, ratio, reflectance, sum);
+  return sum;
+}
 
-  // Reflection and refraction of the surroundings.
+template <class Reflectance>
+void PathTracer::addSurroundings(
+  const Shading& shading, float ratio, const Reflectance& reflectance, Color& sum) const
+{
+  const Material& material = shading.material;
+  const Hit& hit = shading.hit;
   Vector facet = shading.normal;
   float visible = 1.0f;
   const Frame frame(shading.normal);
@@ -279,7 +286,6 @@ Color PathTracer::shadePhysical(const Shading& shading) const
     const float share = refractShare * transmitted;
     sum += share * this->refracted(shading, facet, ratio, share);
   }
-  return sum;
 }
 
 Color PathTracer::refracted(

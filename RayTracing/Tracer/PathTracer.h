@@ -50,6 +50,12 @@ private:
   Radiance shade(const Path& path, const Hit& hit) const;
   Color shadePhong(const Shading& shading) const;
   Color shadePhysical(const Shading& shading) const;
+  /// Adds reflection and refraction of the surroundings.
+  /// @param ratio of refractive indices
+  /// @param reflectance(cosine) the reflected share by color
+  template <class Reflectance>
+  void addSurroundings(
+    const Shading& shading, float ratio, const Reflectance& reflectance, Color& sum) const;
   Color refracted(const Shading& shading, const Vector& facet, float ratio, float importance) const;
   Color ambient(const Shading& shading) const;
   template <class Reflect>

@@ -123,14 +123,13 @@ bool Picture::addSamples(const isopoint::Execution& execution, const Camera& cam
 void Picture::findDistances(
   const isopoint::Execution& execution, const Camera& camera, const Scene& scene)
 {
-  constexpr double half = 0.5;
   const auto rows = [&](std::size_t begin, std::size_t end)
   {
     for (std::size_t index = begin * this->Width; index < end * this->Width; ++index)
     {
-      const double column = half + static_cast<double>(index % this->Width);
+      const double column = 0.5 + static_cast<double>(index % this->Width);
       const std::size_t line = index / this->Width;
-      const double row = half + static_cast<double>(line);
+      const double row = 0.5 + static_cast<double>(line);
       float skipped = 0.0f;
       const Ray ray = camera.through(column / this->Width, row / this->Height, skipped);
       this->Distances[index] = skipped + scene.closest(ray).distance;
