@@ -40,6 +40,9 @@ void pqIsopointSearch::updateEntries()
     { "ScatteredGrid", "Resample samples to an image" },
     { "ScatteredProbe", "Resample samples with a data set" },
     { "ScatteredLine", "Plot samples over a line" },
+    { "ScatteredSlice", "Cut samples by a plane" },
+    { "ScatteredGradient", "Derivatives of samples" },
+    { "ScatteredBody", "Surface of particles" },
   };
   for (const auto& [filter, name] : names)
   {
