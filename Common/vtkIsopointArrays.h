@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdlib>
+#include <cstring>
 #include <new>
 
 /// Sets the number of tuples of an array; their values are undefined. Unlike
@@ -59,6 +60,25 @@ inline void vtkAddAttribute(int type, vtkAbstractArray* array, vtkDataSetAttribu
     attributes->SetActiveAttribute(index, type);
   }
 }
+
+/// Whether an array of this name, which may be null, has ghost marks.
+inline bool vtkIsGhostArrayName(const char* name)
+{
+  return name && std::strcmp(name, vtkDataSetAttributes::GhostArrayName()) == 0;
+}
+
+/// Whether an array holds numbers of type float or double.
+inline bool vtkIsReal(vtkAbstractArray* array)
+{
+  return array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
+}
+
+// Arrays of splats, and of ids of what polygons of splats come from.
+constexpr const char* vtkRadiusArrayName = "Radius";
+constexpr const char* vtkSplatAxisArrayName = "SplatAxis";
+constexpr const char* vtkSplatPolygonArrayName = "SplatPolygon";
+constexpr const char* vtkOriginalPointIdsArrayName = "vtkOriginalPointIds";
+constexpr const char* vtkOriginalCellIdsArrayName = "vtkOriginalCellIds";
 
 /// The type of the coordinates of points; double if no array has them.
 inline int vtkGetTypeOfPoints(vtkDataSet* data)

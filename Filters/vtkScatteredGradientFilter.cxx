@@ -92,26 +92,9 @@ void vtkScatteredGradientFilter::Compute(vtkInformation* inputInfo, vtkDataObjec
   }
   isopoint::ProbeOptions probing;
   probing.method = static_cast<isopoint::PlaceMethod>(this->Interpolation);
-  const vtkSmartPointer<vtkDoubleArray> gradients =
-    this->Probing->FindGradients(array, places, probing);
-
-  std::vector<vtkSmartPointer<vtkDoubleArray>> arrays;
-  if (this->ComputeGradient)
-  {
-    gradients->SetName(this->ResultArrayName.c_str());
-    arrays.push_back(gradients);
-  }
-  const auto derive = [&](vtkTypeBool isWanted, const std::string& name, auto compute)
-  {
-    if (isWanted)
-    {
-      arrays.push_back(compute(gradients));
-      arrays.back()->SetName(name.c_str());
-    }
-  };
-  derive(this->ComputeDivergence, this->DivergenceArrayName, vtkComputeIsopointDivergence);
-  derive(this->ComputeVorticity, this->VorticityArrayName, vtkComputeIsopointVorticity);
-  derive(this->ComputeQCriterion, this->QCriterionArrayName, vtkComputeIsopointQCriterion);
+  static_assert(AFFINE == static_cast<int>(isopoint::PlaceMethod::Affine));
+  const std::vector<vtkSmartPointer<vtkDoubleArray>> arrays =
+    this->Derive(this->Probing->FindGradients(array, places, probing));
 
   vtkCopyIsopointInput(input, output);
   const std::vector<vtkDataObject*> from = vtkListIsopointLeaves(input);
@@ -128,6 +111,27 @@ void vtkScatteredGradientFilter::Compute(vtkInformation* inputInfo, vtkDataObjec
     }
     first += block.GetNumberOfSamples();
   }
+}
+
+/// The arrays of the output.
+std::vector<vtkSmartPointer<vtkDoubleArray>> vtkScatteredGradientFilter::Derive(
+  vtkDoubleArray* gradients) const
+{
+  std::vector<vtkSmartPointer<vtkDoubleArray>> arrays;
+  const auto derive = [&](vtkTypeBool isWanted, const std::string& name, auto compute)
+  {
+    if (isWanted)
+    {
+      arrays.emplace_back(compute(gradients));
+      arrays.back()->SetName(name.c_str());
+    }
+  };
+  const auto same = [](vtkDoubleArray* array) { return array; };
+  derive(this->ComputeGradient, this->ResultArrayName, same);
+  derive(this->ComputeDivergence, this->DivergenceArrayName, vtkComputeIsopointDivergence);
+  derive(this->ComputeVorticity, this->VorticityArrayName, vtkComputeIsopointVorticity);
+  derive(this->ComputeQCriterion, this->QCriterionArrayName, vtkComputeIsopointQCriterion);
+  return arrays;
 }
 
 void vtkScatteredGradientFilter::PrintSelf(ostream& os, vtkIndent indent)

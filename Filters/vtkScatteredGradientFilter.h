@@ -29,11 +29,13 @@
 
 #include "vtkScatteredAlgorithm.h"
 #include "vtkScatteredIsopointFiltersModule.h" // for the export macro
+#include "vtkSmartPointer.h"                   // for derivatives
 
 #include <memory> // for std::unique_ptr
 #include <string> // for the names of arrays
 #include <vector> // for a list of these
 
+class vtkDoubleArray;
 class vtkIsopointProbing;
 
 class VTKSCATTEREDISOPOINTFILTERS_EXPORT vtkScatteredGradientFilter : public vtkScatteredAlgorithm
@@ -54,8 +56,8 @@ public:
   ///@{
   /**
    * How gradients are computed from the samples around:
-   * - BLEND: the gradient of a mean of fits of degree three to zero, weighted by their estimated
-   *   errors.
+   * - BLEND: the gradient of the mean of four fits of degree one to three, weighted by their
+   *   estimated errors.
    * - CUBIC, QUADRATIC, AFFINE: that of a fit of this degree, by weighted least squares.
    *
    * Values outside the enumeration are clamped. Default: BLEND.
@@ -132,6 +134,7 @@ private:
   const isopoint::SampleCounts& GetSampleCounts() const override;
   std::vector<std::string> ListNames() const;
   void Compute(vtkInformation* inputInfo, vtkDataObject* output);
+  std::vector<vtkSmartPointer<vtkDoubleArray>> Derive(vtkDoubleArray* gradients) const;
 };
 
 #endif

@@ -128,6 +128,7 @@ void vtkScatteredProbeFilter::FillOutput(vtkDataObject* output)
   }
   isopoint::ProbeOptions options;
   options.method = static_cast<isopoint::PlaceMethod>(this->Interpolation);
+  static_assert(NEAREST == static_cast<int>(isopoint::PlaceMethod::Nearest));
   options.outside = this->NullPointsStrategy == CLOSEST_POINT ? isopoint::OutsideStrategy::Nearest
                                                               : isopoint::OutsideStrategy::Number;
   if (this->NullPointsStrategy == NULL_VALUE)
@@ -141,10 +142,10 @@ void vtkScatteredProbeFilter::FillOutput(vtkDataObject* output)
   std::vector<unsigned char> areNull(places.size());
   std::transform(kinds.begin(), kinds.end(), areNull.begin(),
     [](std::uint8_t kind) { return static_cast<unsigned char>(kind & isopoint::PlaceOutside); });
-  const unsigned char* areNullHere = areNull.data();
   vtkIdType first = 0;
   for (vtkDataSet* const part : parts)
   {
+    const unsigned char* const areNullHere = areNull.data() + first;
     for (const auto& [values, attribute] : arrays)
     {
       vtkAddIsopointTuples(
@@ -159,7 +160,6 @@ void vtkScatteredProbeFilter::FillOutput(vtkDataObject* output)
       vtkHideIsopointPoints(this->Updater->GetExecution(), areNullHere, part);
     }
     first += part->GetNumberOfPoints();
-    areNullHere += part->GetNumberOfPoints();
   }
 }
 

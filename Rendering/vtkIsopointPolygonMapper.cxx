@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkIsopointPolygonMapper.h"
 
+#include "Common/vtkIsopointArrays.h"
+
 #include "vtkDataObject.h"
 #include "vtkHardwareSelector.h"
 #include "vtkObjectFactory.h"
@@ -10,8 +12,8 @@ vtkStandardNewMacro(vtkIsopointPolygonMapper);
 
 vtkIsopointPolygonMapper::vtkIsopointPolygonMapper()
 {
-  this->SetPointIdArrayName("vtkOriginalPointIds");
-  this->SetCellIdArrayName("vtkOriginalCellIds");
+  this->SetPointIdArrayName(vtkOriginalPointIdsArrayName);
+  this->SetCellIdArrayName(vtkOriginalCellIdsArrayName);
 }
 
 void vtkIsopointPolygonMapper::Render(vtkRenderer* renderer, vtkActor* actor)

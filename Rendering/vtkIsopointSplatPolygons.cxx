@@ -142,8 +142,7 @@ vtkSmartPointer<vtkAbstractArray> atVertices(
   {
     return copy;
   }
-  const bool isReal = array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
-  vtkDataArray* const reals = isReal ? vtkDataArray::SafeDownCast(array) : nullptr;
+  vtkDataArray* const reals = vtkIsReal(array) ? vtkDataArray::SafeDownCast(array) : nullptr;
   vtkDataArray* const means = vtkDataArray::SafeDownCast(copy);
   forTuples(execution, array, mesh.vertices.size(),
     [&](std::size_t vertex)
@@ -177,10 +176,11 @@ vtkSmartPointer<vtkIdTypeArray> newIds(
 /// Whether an array describes the shape of a splat rather than its point.
 bool isOfSplat(vtkDataSetAttributes* attributes, vtkAbstractArray* array)
 {
-  const std::string name = array->GetName() ? array->GetName() : "";
-  return array == attributes->GetNormals() || name == "SplatAxis" || name == "SplatPolygon" ||
-         name == "Normals" || name == vtkDataSetAttributes::GhostArrayName() ||
-         name == "vtkOriginalPointIds" || name == "vtkOriginalCellIds";
+  static const std::set<std::string> names{ vtkSplatAxisArrayName, vtkSplatPolygonArrayName,
+    "Normals", vtkDataSetAttributes::GhostArrayName(), vtkOriginalPointIdsArrayName,
+    vtkOriginalCellIdsArrayName };
+  return array == attributes->GetNormals() ||
+         (array->GetName() && names.count(array->GetName()) > 0);
 }
 
 /// @param copied(array) the array at vertices or triangles
@@ -206,7 +206,7 @@ void copyArrays(vtkDataSetAttributes* from, vtkDataSetAttributes* to, const Copi
 vtkIsopointSplatPolygons::vtkIsopointSplatPolygons()
   : RadiusArrayName(nullptr)
 {
-  this->SetRadiusArrayName("Radius");
+  this->SetRadiusArrayName(vtkRadiusArrayName);
 }
 
 vtkIsopointSplatPolygons::~vtkIsopointSplatPolygons()
@@ -346,10 +346,10 @@ std::string vtkIsopointSplatPolygons::MakePolygons(vtkDataSet* input, vtkPolyDat
   reportProgress(execution, withTriangles);
   copyArrays(input->GetPointData(), output->GetPointData(),
     [&](vtkAbstractArray* array) { return atVertices(execution, array, mesh); });
-  output->GetPointData()->AddArray(newIds(execution, "vtkOriginalPointIds", mesh.vertices.size(),
-    [&mesh](std::size_t vertex) { return mesh.pointOfVertex[vertex]; }));
+  output->GetPointData()->AddArray(newIds(execution, vtkOriginalPointIdsArrayName,
+    mesh.vertices.size(), [&mesh](std::size_t vertex) { return mesh.pointOfVertex[vertex]; }));
   reportProgress(execution, withPoints);
-  const auto cellIds = newIds(execution, "vtkOriginalCellIds", mesh.triangles.size(),
+  const auto cellIds = newIds(execution, vtkOriginalCellIdsArrayName, mesh.triangles.size(),
     [&](std::size_t triangle)
     { return cells.Any(static_cast<vtkIdType>(mesh.pointOfTriangle(triangle))); });
   const vtkIdType* const ids = cellIds->GetPointer(0);

@@ -120,14 +120,14 @@ vtkIsopointSplatShapes::vtkIsopointSplatShapes(vtkDataSet* data,
   this->Radii = this->Usable(
     radiusArrayName && radiusArrayName[0] ? arrays->GetArray(radiusArrayName) : nullptr, 1, count);
   vtkIdType tuples = data->GetNumberOfCells();
-  if (!this->Shapes->HasArray("SplatPolygon")) // files may have it as a point array
+  if (!this->Shapes->HasArray(vtkSplatPolygonArrayName)) // files may have it as a point array
   {
     this->Shapes = arrays;
     tuples = count;
   }
-  this->Axes = this->Usable(this->Shapes->GetArray("SplatAxis"), 3, tuples);
-  this->Polygons = this->Usable(
-    this->Shapes->GetArray("SplatPolygon"), static_cast<int>(isopoint::numbersOfSplat), tuples);
+  this->Axes = this->Usable(this->Shapes->GetArray(vtkSplatAxisArrayName), 3, tuples);
+  this->Polygons = this->Usable(this->Shapes->GetArray(vtkSplatPolygonArrayName),
+    static_cast<int>(isopoint::numbersOfSplat), tuples);
   this->Ghosts = data->GetPointGhostArray();
   if (!this->Radii && !(radius > 0.0))
   {
@@ -146,7 +146,7 @@ vtkDataArray* vtkIsopointSplatShapes::Usable(vtkDataArray* array, int components
 
 std::string vtkIsopointSplatShapes::Problem() const
 {
-  if (this->Shapes->HasArray("SplatPolygon") && !this->Polygons)
+  if (this->Shapes->HasArray(vtkSplatPolygonArrayName) && !this->Polygons)
   {
     return "The array \"SplatPolygon\" has not 40 components for each vertex cell: splats are "
            "octagons of the points' radii. Use the array as vtkScatteredIsopointFilter writes it.";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Input/vtkIsopointBlocks.h"
 
+#include "Common/vtkIsopointArrays.h"
 #include "Core/Base/Execution.h"
 #include "Input/vtkIsopointCellCenters.h"
 #include "Input/vtkIsopointGhosts.h"
@@ -20,7 +21,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstring>
 #include <utility>
 
 namespace
@@ -34,10 +34,9 @@ std::string arrayNames(vtkDataSetAttributes* attributes)
   for (int i = 0; i < count; ++i)
   {
     const char* const found = attributes->GetArrayName(i);
-    const std::string name = found ? found : "(unnamed)";
-    if (name != vtkDataSetAttributes::GhostArrayName())
+    if (!vtkIsGhostArrayName(found))
     {
-      names += (names.empty() ? "" : ", ") + name;
+      names += std::string(names.empty() ? "" : ", ") + (found ? found : "(unnamed)");
     }
   }
   return names.empty() ? "none" : names;
@@ -134,7 +133,7 @@ bool hasNumbers(vtkDataSetAttributes* attributes)
   {
     vtkDataArray* const array = attributes->GetArray(i);
     const char* const name = array ? array->GetName() : nullptr;
-    if (name && std::strcmp(name, vtkDataSetAttributes::GhostArrayName()) != 0 &&
+    if (name && !vtkIsGhostArrayName(name) &&
         attributes->IsArrayAnAttribute(i) != vtkDataSetAttributes::GLOBALIDS)
     {
       return true;

@@ -19,6 +19,15 @@
 #include <cstddef>
 #include <vector>
 
+vtkUnsignedCharArray* vtkGetIsopointGhosts(vtkDataSetAttributes* attributes, vtkIdType count)
+{
+  auto* const ghosts = vtkUnsignedCharArray::SafeDownCast(
+    attributes->GetArray(vtkDataSetAttributes::GhostArrayName()));
+  return ghosts && ghosts->GetNumberOfComponents() == 1 && ghosts->GetNumberOfValues() >= count
+           ? ghosts
+           : nullptr;
+}
+
 namespace
 {
 
@@ -68,20 +77,6 @@ void forEachCellPoint(const isopoint::Execution& execution, vtkDataSet* input, c
     });
 }
 
-} // namespace
-
-vtkUnsignedCharArray* vtkGetIsopointGhosts(vtkDataSetAttributes* attributes, vtkIdType count)
-{
-  auto* const ghosts = vtkUnsignedCharArray::SafeDownCast(
-    attributes->GetArray(vtkDataSetAttributes::GhostArrayName()));
-  return ghosts && ghosts->GetNumberOfComponents() == 1 && ghosts->GetNumberOfValues() >= count
-           ? ghosts
-           : nullptr;
-}
-
-namespace
-{
-
 /// vtkFindGhostPoints() without regard to other ranks.
 vtkSmartPointer<vtkUnsignedCharArray> findOwnGhostPoints(
   const isopoint::Execution& execution, vtkDataSet* input)
@@ -119,6 +114,19 @@ vtkSmartPointer<vtkUnsignedCharArray> findOwnGhostPoints(
       (own ? own->GetValue(point) : 0) | (isExcluded ? vtkDataSetAttributes::HIDDENPOINT : 0);
     ghosts->SetValue(point, static_cast<unsigned char>(value));
   }
+  return ghosts;
+}
+
+/// A ghost array of its own for attributes, with the marks that they have.
+vtkSmartPointer<vtkUnsignedCharArray> addGhosts(vtkDataSetAttributes* attributes, vtkIdType count)
+{
+  const vtkSmartPointer<vtkUnsignedCharArray> ghosts = newGhosts(count);
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  if (vtkUnsignedCharArray* const before = vtkGetIsopointGhosts(attributes, count))
+  {
+    std::copy_n(before->GetPointer(0), count, ghosts->GetPointer(0));
+  }
+  attributes->AddArray(ghosts);
   return ghosts;
 }
 
@@ -194,24 +202,6 @@ vtkSmartPointer<vtkUnsignedCharArray> vtkFindGhostCells(
   }
   return ghosts;
 }
-
-namespace
-{
-
-/// A ghost array of its own for attributes, with the marks that they have.
-vtkSmartPointer<vtkUnsignedCharArray> addGhosts(vtkDataSetAttributes* attributes, vtkIdType count)
-{
-  const vtkSmartPointer<vtkUnsignedCharArray> ghosts = newGhosts(count);
-  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
-  if (vtkUnsignedCharArray* const before = vtkGetIsopointGhosts(attributes, count))
-  {
-    std::copy_n(before->GetPointer(0), count, ghosts->GetPointer(0));
-  }
-  attributes->AddArray(ghosts);
-  return ghosts;
-}
-
-} // namespace
 
 void vtkHideIsopointPoints(
   const isopoint::Execution& execution, const unsigned char* hidden, vtkDataSet* data)

@@ -79,7 +79,7 @@ isopoint::SampleTypes vtkGetIsopointSampleTypes(const std::vector<vtkIsopointBlo
     const int type = block.Scalars ? block.Scalars->GetDataType() : VTK_FLOAT;
     types.areFloatPositions &= vtkGetTypeOfPoints(block.Positions) == VTK_FLOAT;
     types.areFloatValues &= type == VTK_FLOAT || vtkDataArray::GetDataTypeSize(type) <= 2;
-    types.areIntegers &= type != VTK_FLOAT && type != VTK_DOUBLE;
+    types.areIntegers &= block.Scalars && !vtkIsReal(block.Scalars);
   }
   return types;
 }

@@ -9,7 +9,6 @@
 #include "vtkStringArray.h"
 
 #include <cstddef>
-#include <cstring>
 #include <string>
 
 using isopoint::ByteBuffer;
@@ -25,8 +24,7 @@ std::string textOf(const char* text)
 bool isSent(vtkDataSetAttributes* attributes, int index)
 {
   vtkAbstractArray* const array = attributes->GetAbstractArray(index);
-  const bool isNamed =
-    array->GetName() && std::strcmp(array->GetName(), vtkDataSetAttributes::GhostArrayName()) != 0;
+  const bool isNamed = array->GetName() && !vtkIsGhostArrayName(array->GetName());
   const bool hasKnownValues =
     vtkDataArray::SafeDownCast(array) || vtkStringArray::SafeDownCast(array);
   return index + 1 == attributes->GetNumberOfArrays() ||

@@ -7,6 +7,7 @@
 #include "Core/Failure.h"
 #include "Core/OutputArrays.h"
 #include "Input/vtkIsopointNumbers.h"
+#include "Output/vtkIsopointEndSamples.h"
 #include "Output/vtkIsopointOutputArrays.h"
 
 #include "vtkDataArray.h"
@@ -161,8 +162,8 @@ void moveTuple(double share, vtkDataArray* from, vtkIdType sample, vtkDataArray*
 } // namespace
 
 void vtkIsopointCut::MovePoints(const isopoint::Execution& execution,
-  const std::vector<isopoint::ExtractedIsosurface>& surfaces, vtkDataSetAttributes* ends,
-  vtkDataArray* positions, vtkPolyData* slice) const
+  const std::vector<isopoint::ExtractedIsosurface>& surfaces, const vtkIsopointEndSamples& ends,
+  vtkPolyData* slice) const
 {
   using isopoint::operator+;
   using isopoint::operator-;
@@ -176,7 +177,7 @@ void vtkIsopointCut::MovePoints(const isopoint::Execution& execution,
       slice->GetPointData()->IsArrayAnAttribute(k) == vtkDataSetAttributes::PEDIGREEIDS;
     if (array && array->GetName() && !isId)
     {
-      arrays.emplace_back(ends->GetArray(array->GetName()), array);
+      arrays.emplace_back(ends.GetAttributes()->GetArray(array->GetName()), array);
     }
   }
   vtkIdType first = 0;
@@ -193,13 +194,13 @@ void vtkIsopointCut::MovePoints(const isopoint::Execution& execution,
         const double before = this->Evaluate(begin) - level;
         const isopoint::IsopointEdge& edge = surface.edgeOf(index);
         isopoint::Vector end;
-        auto sample = static_cast<vtkIdType>(edge.second);
-        positions->GetTuple(sample, end.data());
+        std::uint64_t sample = edge.second;
+        ends.GetPosition(sample, end.data());
         double after = this->Evaluate(end) - level;
         if ((after >= 0.0) == (before >= 0.0))
         {
-          sample = static_cast<vtkIdType>(edge.first);
-          positions->GetTuple(sample, end.data());
+          sample = edge.first;
+          ends.GetPosition(sample, end.data());
           after = this->Evaluate(end) - level;
         }
         const isopoint::Vector way = end - begin;
@@ -208,7 +209,7 @@ void vtkIsopointCut::MovePoints(const isopoint::Execution& execution,
         points->SetPoint(i, (begin + share * way).data());
         for (const auto& [from, to] : arrays)
         {
-          moveTuple(share, from, sample, to, i);
+          moveTuple(share, from, static_cast<vtkIdType>(sample), to, i);
         }
       });
     first += static_cast<vtkIdType>(surface.size());

@@ -15,10 +15,9 @@ namespace isopoint
 {
 struct Execution;
 }
-class vtkDataArray;
-class vtkDataSetAttributes;
 class vtkDoubleArray;
 class vtkImplicitFunction;
+class vtkIsopointEndSamples;
 class vtkPolyData;
 
 /// An implicit function whose level sets are slices of samples (docs/triangles.md, "Slices"). Of a
@@ -46,11 +45,10 @@ public:
 
   /// Moves the points of a slice towards the sample at the end of their edge on the other side of
   /// the function, as far as it has their isovalue, and arrays of numbers with them.
-  /// @param ends the attributes of the samples at ends of edges
-  /// @param positions of these samples
+  /// @param ends of edges, with positions
   void MovePoints(const isopoint::Execution& execution,
-    const std::vector<isopoint::ExtractedIsosurface>& surfaces, vtkDataSetAttributes* ends,
-    vtkDataArray* positions, vtkPolyData* slice) const;
+    const std::vector<isopoint::ExtractedIsosurface>& surfaces, const vtkIsopointEndSamples& ends,
+    vtkPolyData* slice) const;
 
   /// The value at a place.
   double Evaluate(const isopoint::Vector& place) const;

@@ -34,7 +34,7 @@ void vtkCheckIsopointNames(const std::vector<std::string>& names)
 {
   for (auto name = names.begin(); name != names.end(); ++name)
   {
-    if (name->empty() || *name == vtkDataSetAttributes::GhostArrayName() ||
+    if (name->empty() || vtkIsGhostArrayName(name->c_str()) ||
         std::find(names.begin(), name, *name) != name)
     {
       throw isopoint::UsageError(

@@ -4,12 +4,14 @@
 #include "Common/vtkIsopointArrays.h"
 #include "Core/Base/Lists.h"
 #include "Core/Base/ProcessGroup.h"
+#include "Input/vtkIsopointNumbers.h"
 #include "Output/vtkIsopointArrayBytes.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDataSetAttributesFieldList.h"
+#include "vtkDoubleArray.h"
 #include "vtkPointData.h"
 
 #include <algorithm>
@@ -172,14 +174,34 @@ vtkSmartPointer<vtkDataArray> gatherScalars(const std::vector<vtkIsopointBlock>&
   return scalars;
 }
 
-/// Copies the common attributes at these ids, with the contoured array at the end.
-vtkSmartPointer<vtkPointData> copiedSamples(
-  const std::vector<vtkIsopointBlock>& blocks, const std::vector<std::uint64_t>& ids)
+/// Copies the positions at these ids.
+vtkSmartPointer<vtkDataArray> gatherPositions(const std::vector<vtkIsopointBlock>& blocks,
+  const std::vector<IdRange>& ranges, const std::vector<std::uint64_t>& ids)
+{
+  auto positions = vtkSmartPointer<vtkDoubleArray>::New();
+  positions->SetNumberOfComponents(3);
+  vtkAllocateTuples(positions, static_cast<vtkIdType>(ids.size()));
+  for (std::size_t block = 0; block < blocks.size(); ++block)
+  {
+    const vtkIsopointPositions read(blocks[block].Positions);
+    for (std::size_t i = ranges[block].begin; i < ranges[block].end; ++i)
+    {
+      read(ids[i] - ranges[block].firstId, positions->GetPointer(static_cast<vtkIdType>(3 * i)));
+    }
+  }
+  return positions;
+}
+
+/// Copies the common attributes at these ids, with values or positions at the end.
+vtkSmartPointer<vtkPointData> copiedSamples(const std::vector<vtkIsopointBlock>& blocks,
+  const std::vector<std::uint64_t>& ids, vtkIsopointEndSamples::Numbers numbers)
 {
   auto copied = vtkSmartPointer<vtkPointData>::New();
   const std::vector<IdRange> ranges = idRangesOf(countsOf(blocks), ids);
   gatherAttributes(blocks, ranges, ids, copied);
-  const vtkSmartPointer<vtkDataArray> scalars = gatherScalars(blocks, ranges, ids);
+  const vtkSmartPointer<vtkDataArray> scalars = numbers == vtkIsopointEndSamples::Positions
+                                                  ? gatherPositions(blocks, ranges, ids)
+                                                  : gatherScalars(blocks, ranges, ids);
   if (scalars->GetName())
   {
     copied->RemoveArray(scalars->GetName());
@@ -189,10 +211,10 @@ vtkSmartPointer<vtkPointData> copiedSamples(
 }
 
 /// The same, with attributes in the order of the first block.
-vtkSmartPointer<vtkPointData> copiedInOrder(
-  const std::vector<vtkIsopointBlock>& blocks, const std::vector<std::uint64_t>& ids)
+vtkSmartPointer<vtkPointData> copiedInOrder(const std::vector<vtkIsopointBlock>& blocks,
+  const std::vector<std::uint64_t>& ids, vtkIsopointEndSamples::Numbers numbers)
 {
-  const vtkSmartPointer<vtkPointData> copied = copiedSamples(blocks, ids);
+  const vtkSmartPointer<vtkPointData> copied = copiedSamples(blocks, ids, numbers);
   const int contoured = copied->GetNumberOfArrays() - 1;
   auto ordered = vtkSmartPointer<vtkPointData>::New();
   vtkDataSetAttributes* const first = blocks.front().Attributes;
@@ -213,29 +235,38 @@ vtkSmartPointer<vtkPointData> copiedInOrder(
 } // namespace
 
 vtkIsopointEndSamples::vtkIsopointEndSamples(isopoint::ProcessGroup& processes,
-  const std::vector<vtkIsopointBlock>& blocks, std::vector<isopoint::ExtractedIsosurface>& surfaces)
+  const std::vector<vtkIsopointBlock>& blocks, std::vector<isopoint::ExtractedIsosurface>& surfaces,
+  Numbers numbers)
 {
   if (processes.size() > 1)
   {
-    this->CopyFromRanks(processes, blocks, surfaces);
+    this->CopyFromRanks(processes, blocks, surfaces, numbers);
   }
   else if (blocks.size() > 1)
   {
     const std::vector<std::uint64_t> ids = listEndSamples(surfaces);
-    this->Use(copiedSamples(blocks, ids));
+    this->Use(copiedSamples(blocks, ids, numbers));
     renumberEndSamples(surfaces, ids);
   }
   else
   {
     this->Attributes = blocks.front().Attributes;
     this->Scalars = blocks.front().Scalars;
+    this->Block = blocks.front().Positions;
   }
 }
 
 vtkIsopointEndSamples::~vtkIsopointEndSamples() = default;
 
+void vtkIsopointEndSamples::GetPosition(std::size_t sample, double position[3]) const
+{
+  this->Block ? vtkIsopointPositions(this->Block)(sample, position)
+              : this->Scalars->GetTuple(static_cast<vtkIdType>(sample), position);
+}
+
 void vtkIsopointEndSamples::CopyFromRanks(isopoint::ProcessGroup& processes,
-  const std::vector<vtkIsopointBlock>& blocks, std::vector<isopoint::ExtractedIsosurface>& surfaces)
+  const std::vector<vtkIsopointBlock>& blocks, std::vector<isopoint::ExtractedIsosurface>& surfaces,
+  Numbers numbers)
 {
   const std::vector<std::uint64_t> ids = listEndSamples(surfaces);
   const std::vector<std::uint64_t> counts = countsOf(blocks);
@@ -252,8 +283,9 @@ void vtkIsopointEndSamples::CopyFromRanks(isopoint::ProcessGroup& processes,
   std::vector<isopoint::ByteBuffer> answers;
   for (const std::vector<std::uint64_t>& asked : processes.exchange(wanted))
   {
-    answers.push_back(blocks.empty() ? isopoint::ByteBuffer()
-                                     : vtkWriteIsopointArrays(copiedInOrder(blocks, asked)));
+    answers.push_back(blocks.empty()
+                        ? isopoint::ByteBuffer()
+                        : vtkWriteIsopointArrays(copiedInOrder(blocks, asked, numbers)));
   }
   this->Join(processes.exchange(answers), ids.size());
   renumberEndSamples(surfaces, ids);
@@ -280,7 +312,7 @@ void vtkIsopointEndSamples::Join(
   }
   std::vector<std::uint64_t> all(count);
   std::iota(all.begin(), all.end(), std::uint64_t{ 0 });
-  this->Use(copiedInOrder(pieces, all));
+  this->Use(copiedInOrder(pieces, all, Values));
 }
 
 void vtkIsopointEndSamples::Use(vtkPointData* copied)

@@ -26,7 +26,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <initializer_list>
 #include <type_traits>
 
@@ -85,8 +84,7 @@ bool isExcluded(vtkAbstractArray* array, int attribute, vtkDataArray* contoured)
 {
   return array == contoured || attribute == vtkDataSetAttributes::GLOBALIDS ||
          array->GetNumberOfTuples() != contoured->GetNumberOfTuples() ||
-         (array->GetName() &&
-           std::strcmp(array->GetName(), vtkDataSetAttributes::GhostArrayName()) == 0);
+         vtkIsGhostArrayName(array->GetName());
 }
 
 /// A new array, or null unless `isComputed`.
@@ -206,13 +204,14 @@ std::vector<std::string> vtkAddComputedIsopointArrays(const isopoint::Execution&
   isopoint::OutputArrays memory;
   const auto normals =
     newArray<vtkFloatArray>(options.computeNormals, "Normals", 3, count, memory.normals);
-  const auto radii = newArray<vtkFloatArray>(hasSplats, "Radius", 1, count, memory.radii);
+  const auto radii = newArray<vtkFloatArray>(hasSplats, vtkRadiusArrayName, 1, count, memory.radii);
   const auto gradients =
     newArray<vtkFloatArray>(options.computeGradients, "Gradients", 3, count, memory.gradients);
   const auto orders = newArray<vtkUnsignedCharArray>(
     options.computeProjectionOrders, "ProjectionOrder", 1, count, memory.projectionOrders);
-  const auto axes = newArray<vtkFloatArray>(hasSplats, "SplatAxis", 3, count, memory.splatAxes);
-  const auto polygons = newArray<vtkFloatArray>(hasSplats, "SplatPolygon",
+  const auto axes =
+    newArray<vtkFloatArray>(hasSplats, vtkSplatAxisArrayName, 3, count, memory.splatAxes);
+  const auto polygons = newArray<vtkFloatArray>(hasSplats, vtkSplatPolygonArrayName,
     static_cast<int>(isopoint::numbersOfSplat), count, memory.splatPolygons);
   std::size_t first = 0;
   for (const ExtractedIsosurface& surface : surfaces)

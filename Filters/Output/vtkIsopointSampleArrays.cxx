@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <memory>
 
 namespace
@@ -31,8 +30,7 @@ Arrays arraysOf(const vtkIsopointBlock& block)
   {
     vtkAbstractArray* const array = attributes->GetAbstractArray(i);
     const int attribute = attributes->IsArrayAnAttribute(i);
-    if (!array->GetName() ||
-        std::strcmp(array->GetName(), vtkDataSetAttributes::GhostArrayName()) == 0 ||
+    if (!array->GetName() || vtkIsGhostArrayName(array->GetName()) ||
         attribute == vtkDataSetAttributes::GLOBALIDS ||
         attribute == vtkDataSetAttributes::PEDIGREEIDS)
     {
@@ -40,9 +38,8 @@ Arrays arraysOf(const vtkIsopointBlock& block)
     }
     const bool isUsed =
       vtkDataArray::SafeDownCast(array) && array->GetNumberOfTuples() == block.GetNumberOfSamples();
-    const int type = array->GetDataType();
-    arrays.push_back({ array->GetName(), isUsed ? array->GetNumberOfComponents() : 0, type,
-      attribute, type != VTK_FLOAT && type != VTK_DOUBLE, {} });
+    arrays.push_back({ array->GetName(), isUsed ? array->GetNumberOfComponents() : 0,
+      array->GetDataType(), attribute, !vtkIsReal(array), {} });
   }
   return arrays;
 }
@@ -119,22 +116,45 @@ Arrays commonOfRanks(isopoint::ProcessGroup& processes, const Arrays& own, bool 
   return merged;
 }
 
-} // namespace
-
-std::vector<vtkIsopointSampleArray> vtkListIsopointArrays(isopoint::ProcessGroup& processes,
-  const std::vector<vtkIsopointBlock>& blocks, std::set<std::string>& dropped)
+/// What the blocks of all ranks have in common; other arrays have no components.
+/// @param list(block) the arrays of a block
+template <class List>
+Arrays commonOfBlocks(
+  isopoint::ProcessGroup& processes, const std::vector<vtkIsopointBlock>& blocks, const List& list)
 {
   Arrays all;
   for (std::size_t i = 0; i < blocks.size(); ++i)
   {
-    all = i == 0 ? arraysOf(blocks[i]) : common(all, arraysOf(blocks[i]));
+    all = i == 0 ? list(blocks[i]) : common(all, list(blocks[i]));
   }
-  if (processes.size() > 1)
+  return processes.size() > 1 ? commonOfRanks(processes, all, !blocks.empty()) : all;
+}
+
+} // namespace
+
+vtkIsopointSampleArray vtkFindIsopointArray(isopoint::ProcessGroup& processes,
+  const std::vector<vtkIsopointBlock>& blocks, const vtkIsopointArrayChoice& choice)
+{
+  // Without names: those of a chosen attribute may differ.
+  vtkIsopointSampleArray found = commonOfBlocks(processes, blocks,
+    [&](const vtkIsopointBlock& block)
+    {
+      vtkAbstractArray* const array = choice.Find(block.Attributes);
+      return Arrays{ { "", array->GetNumberOfComponents(), array->GetDataType(), -1,
+        !vtkIsReal(array), {} } };
+    }).front();
+  for (const vtkIsopointBlock& block : blocks)
   {
-    all = commonOfRanks(processes, all, !blocks.empty());
+    found.Parts.push_back(vtkDataArray::SafeDownCast(choice.Find(block.Attributes)));
   }
+  return found;
+}
+
+std::vector<vtkIsopointSampleArray> vtkListIsopointArrays(isopoint::ProcessGroup& processes,
+  const std::vector<vtkIsopointBlock>& blocks, std::set<std::string>& dropped)
+{
   Arrays found;
-  for (vtkIsopointSampleArray& array : all)
+  for (vtkIsopointSampleArray& array : commonOfBlocks(processes, blocks, arraysOf))
   {
     if (array.Components == 0)
     {
@@ -184,8 +204,7 @@ namespace
 /// A number that an array can hold, without a fraction for integers, which get 0 if they cannot.
 double heldBy(vtkDataArray* array, double number)
 {
-  const int type = array->GetDataType();
-  if (type == VTK_FLOAT || type == VTK_DOUBLE)
+  if (vtkIsReal(array))
   {
     return number;
   }
@@ -289,8 +308,7 @@ std::vector<vtkSmartPointer<vtkDataArray>> vtkProbeIsopointArrays(
 
 void vtkReplaceIsopointNumbers(vtkDataArray* found, vtkDataArray* array)
 {
-  const int type = array->GetDataType();
-  if (type == found->GetDataType() && type != VTK_FLOAT && type != VTK_DOUBLE)
+  if (array->GetDataType() == found->GetDataType() && !vtkIsReal(array))
   {
     for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
     {

@@ -39,6 +39,12 @@ struct vtkIsopointSampleArray
 std::vector<vtkIsopointSampleArray> vtkListIsopointArrays(isopoint::ProcessGroup& processes,
   const std::vector<vtkIsopointBlock>& blocks, std::set<std::string>& dropped);
 
+/// The chosen array of the blocks of all ranks, without its name; without components if their
+/// number differs. Collective.
+/// @throws what isopoint::ProcessGroup throws
+vtkIsopointSampleArray vtkFindIsopointArray(isopoint::ProcessGroup& processes,
+  const std::vector<vtkIsopointBlock>& blocks, const vtkIsopointArrayChoice& choice);
+
 /// The note that arrays are left out of the output.
 /// @param rule which arrays are not
 isopoint::Message vtkDescribeLeftOut(const std::set<std::string>& names, const std::string& rule);

@@ -22,7 +22,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -37,37 +36,12 @@ void vtkIsopointContouring::Run(const vtkIsopointOptions& options, vtkInformatio
   vtkInformation* inputArray, vtkInformation* outputInfo)
 {
   this->Options = options; // they may change meanwhile
-  this->Report = isopoint::Report();
-  const bool isDone = this->Update.Run(
-    vtkDataObject::GetData(outputInfo), [&]() { this->Extract(inputInfo, inputArray, outputInfo); },
+  this->Update.Run(
+    vtkDataObject::GetData(outputInfo), [this]() { this->Report = isopoint::Report(); },
+    [&]() { this->Extract(inputInfo, inputArray, outputInfo); },
     [this](isopoint::OptionNaming naming)
     { return isopoint::describeReport(this->Report, naming); });
-  if (!isDone)
-  {
-    this->Report = isopoint::Report();
-  }
 }
-
-namespace
-{
-
-/// All options that ranks must share.
-std::string textOf(const vtkIsopointOptions& options, const std::vector<double>& sortedIsovalues,
-  const vtkIsopointArrayChoice& array)
-{
-  std::ostringstream text;
-  text << std::hexfloat << options.Core.triangles << " " << array.Describe() << " "
-       << options.ComputeScalars << " " << options.ContourBlocks;
-  for (const double isovalue : sortedIsovalues)
-  {
-    text << " " << isovalue + 0.0; // 0 and -0 are the same
-  }
-  isopoint::forEachOption(
-    options.Core, [&](const auto& option) { text << " " << options.Core.*option.value + 0.0; });
-  return text.str();
-}
-
-} // namespace
 
 void vtkIsopointContouring::Extract(
   vtkInformation* inputInfo, vtkInformation* inputArray, vtkInformation* outputInfo)
@@ -80,7 +54,7 @@ void vtkIsopointContouring::Extract(
   const std::vector<double> isovalues = isopoint::sortedIsovalues(this->Options.GetValues());
   const vtkIsopointArrayChoice array(inputArray);
   isopoint::checkOptions(this->Options.Core, this->Update.GetOptionNaming());
-  this->Update.CheckOptionsOnRanks(textOf(this->Options, isovalues, array), "contour");
+  this->Update.CheckOptionsOnRanks(array.Describe() + this->Options.Describe(), "contour");
   isopoint::ProcessGroup& processes = this->Update.GetProcesses();
   this->GhostLevels = this->Update.GetGhostLevels(outputInfo);
 

@@ -2,11 +2,14 @@
 #ifndef vtkIsopointOptions_h
 #define vtkIsopointOptions_h
 
+#include "Core/Contour.h"
 #include "Core/Options.h"
 
 #include "vtkContourValues.h"
 
 #include <algorithm>
+#include <sstream>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -17,6 +20,21 @@ struct vtkIsopointOptions
   {
     double* const values = this->ContourValues->GetValues();
     return { values, values + this->ContourValues->GetNumberOfContours() };
+  }
+
+  /// A text with all options, the same for equal ones.
+  std::string Describe() const
+  {
+    std::ostringstream text;
+    text << std::hexfloat << " " << this->Core.triangles << " " << this->ComputeScalars << " "
+         << this->ContourBlocks;
+    for (const double value : isopoint::sortedIsovalues(this->GetValues()))
+    {
+      text << " " << value + 0.0; // 0 and -0 are the same
+    }
+    isopoint::forEachOption(
+      this->Core, [&](const auto& option) { text << " " << this->Core.*option.value + 0.0; });
+    return text.str();
   }
 
   isopoint::Options Core;

@@ -18,7 +18,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <mutex>
 
 vtkIsopointProbing::vtkIsopointProbing(vtkIsopointUpdate& update)
@@ -30,14 +29,10 @@ vtkIsopointProbing::~vtkIsopointProbing() = default;
 
 void vtkIsopointProbing::Run(vtkDataObject* output, const std::function<void()>& work)
 {
-  this->Counts = Counting();
-  const bool isDone =
-    this->Update.Run(output, work, [this](isopoint::OptionNaming) { return this->Describe(); });
+  this->Update.Run(
+    output, [this]() { this->Report = ProbeReport(); }, work,
+    [this](isopoint::OptionNaming) { return this->Describe(); });
   this->Cloud = nullptr;
-  if (!isDone)
-  {
-    this->Counts = Counting();
-  }
 }
 
 void vtkIsopointProbing::Load(
@@ -50,7 +45,7 @@ void vtkIsopointProbing::Load(
   this->Loaded = this->Cloud->IsLoaded ? 0.0 : 0.2;
   this->Update.Load(isopoint::partOf(this->Update.GetExecution(), 0.0, this->Loaded), *this->Cloud);
 
-  isopoint::SampleCounts& samples = this->Counts.Samples;
+  isopoint::SampleCounts& samples = this->Report.Samples;
   samples.withoutArray = static_cast<std::uint64_t>(input.GetNumberOfPointsWithoutArray());
   samples.samples = samples.withoutArray;
   if (array.GetRole() != vtkIsopointArrayChoice::NoArray && !this->Cloud->Blocks.empty())
@@ -135,23 +130,23 @@ void vtkIsopointProbing::Probe(const std::vector<isopoint::Vector>& places,
     return this->Update.GetProcesses().sum(static_cast<std::uint64_t>(std::count_if(
       kinds.begin(), kinds.end(), [kind](std::uint8_t bits) { return (bits & kind) != 0; })));
   };
-  this->Counts.Places = this->Update.GetProcesses().sum(std::uint64_t{ places.size() });
-  this->Counts.Outside = count(isopoint::PlaceOutside);
-  this->Counts.Flat = count(isopoint::PlaceFlat);
+  this->Report.Places = this->Update.GetProcesses().sum(std::uint64_t{ places.size() });
+  this->Report.Outside = count(isopoint::PlaceOutside);
+  this->Report.Flat = count(isopoint::PlaceFlat);
 }
 
 std::vector<vtkIsopointProbing::Array> vtkIsopointProbing::ProbeAll(
   const std::vector<isopoint::Vector>& places, const isopoint::ProbeOptions& options,
   const std::set<std::string>& own, bool isOutsideHidden, std::vector<std::uint8_t>& kinds)
 {
-  this->Counts.IsOutsideLost =
+  this->Report.IsOutsideLost =
     isOutsideHidden || options.outside == isopoint::OutsideStrategy::Number;
   isopoint::ProcessGroup& processes = this->Update.GetProcesses();
   std::vector<vtkIsopointSampleArray> arrays =
-    vtkListIsopointArrays(processes, this->GetBlocks(), this->Counts.Dropped);
-  this->Counts.HasArrays = !arrays.empty();
+    vtkListIsopointArrays(processes, this->GetBlocks(), this->Report.NotCommon);
+  this->Report.HasArrays = !arrays.empty();
   const auto isOwn = [&](const vtkIsopointSampleArray& array)
-  { return own.count(array.Name) > 0 && this->Counts.Own.insert(array.Name).second; };
+  { return own.count(array.Name) > 0 && this->Report.Replaced.insert(array.Name).second; };
   arrays.erase(std::remove_if(arrays.begin(), arrays.end(), isOwn), arrays.end());
   const std::vector<vtkSmartPointer<vtkDataArray>> results =
     vtkProbeIsopointArrays(arrays, this->GetBlocks(), options, places.size(), processes.size() == 1,
@@ -167,31 +162,15 @@ std::vector<vtkIsopointProbing::Array> vtkIsopointProbing::ProbeAll(
 
 vtkIsopointSampleArray vtkIsopointProbing::FindArray(const vtkIsopointArrayChoice& choice)
 {
-  vtkIsopointSampleArray found;
-  found.Name = this->Counts.Samples.array;
-  found.AreIntegers = true;
-  std::uint64_t least = std::numeric_limits<int>::max();
-  std::uint64_t most = 0;
-  for (const vtkIsopointBlock& block : this->GetBlocks())
-  {
-    auto* const part = vtkDataArray::SafeDownCast(choice.Find(block.Attributes));
-    const int type = part->GetDataType();
-    found.AreIntegers = found.AreIntegers && type != VTK_FLOAT && type != VTK_DOUBLE;
-    found.Parts.push_back(part);
-    least = std::min(least, static_cast<std::uint64_t>(part->GetNumberOfComponents()));
-    most = std::max(most, static_cast<std::uint64_t>(part->GetNumberOfComponents()));
-  }
-  isopoint::ProcessGroup& processes = this->Update.GetProcesses();
-  most = processes.maximum(most);
-  least = ~processes.maximum(~least);
-  found.AreIntegers = !processes.isAny(!found.AreIntegers);
-  if (least != most)
+  vtkIsopointSampleArray found =
+    vtkFindIsopointArray(this->Update.GetProcesses(), this->GetBlocks(), choice);
+  found.Name = this->Report.Samples.array;
+  if (found.Components == 0)
   {
     throw isopoint::UsageError(
       "The array \"" + found.Name +
       "\" has different numbers of components in the blocks of the input. Choose another one.");
   }
-  found.Components = static_cast<int>(most);
   return found;
 }
 
@@ -210,7 +189,7 @@ vtkSmartPointer<vtkDoubleArray> vtkIsopointProbing::FindGradients(
   probed.gradients = gradients->GetPointer(0);
   std::vector<std::uint8_t> kinds;
   this->Probe(places, options, { probed }, kinds);
-  this->Counts.AreGradients = true;
+  this->Report.AreGradients = true;
   const auto isFinite = [](double number) { return std::isfinite(number); };
   std::uint64_t without = 0;
   for (std::size_t i = 0; i < places.size(); ++i)
@@ -220,61 +199,61 @@ vtkSmartPointer<vtkDoubleArray> vtkIsopointProbing::FindGradients(
                std::any_of(gradient, gradient + 3 * components,
                  [](double derivative) { return std::isnan(derivative); });
   }
-  this->Counts.WithoutGradient = this->Update.GetProcesses().sum(without);
+  this->Report.WithoutGradient = this->Update.GetProcesses().sum(without);
   return gradients;
 }
 
 std::vector<isopoint::Message> vtkIsopointProbing::Describe() const
 {
   using isopoint::Message;
-  const Counting& counts = this->Counts;
+  const ProbeReport& report = this->Report;
   std::vector<Message> messages;
-  const Message skipped = isopoint::describeSkipped(counts.Samples,
+  const Message skipped = isopoint::describeSkipped(report.Samples,
     "There are no values. Connect samples with finite positions.",
-    counts.AreGradients ? "Gradients are those of the other samples."
+    report.AreGradients ? "Gradients are those of the other samples."
                         : "Values there are those of the samples around.");
   if (!skipped.text.empty())
   {
     messages.push_back(skipped);
   }
-  const std::string places = " of " + std::to_string(counts.Places) + " points ";
-  if (!counts.HasArrays)
+  const std::string places = " of " + std::to_string(report.Places) + " points ";
+  if (!report.HasArrays)
   {
     messages.push_back({ "no arrays",
       "The samples have no arrays of numbers, nor has the output. Load arrays in the reader." });
   }
-  if (counts.Places > 0 && counts.Outside == counts.Places && counts.IsOutsideLost)
+  if (report.Places > 0 && report.Outside == report.Places && report.IsOutsideLost)
   {
     messages.push_back({ "all outside",
-      "All " + std::to_string(counts.Places) +
+      "All " + std::to_string(report.Places) +
         " points are outside of the samples, where there are no values. Move them among the"
         " samples." });
   }
-  if (counts.Flat > 0)
+  if (report.Flat > 0)
   {
     messages.push_back({ "flat",
-      "At " + std::to_string(counts.Flat) + places +
+      "At " + std::to_string(report.Flat) + places +
         "the samples around are in a plane or on a line: " +
-        (counts.AreGradients ? "gradients have no part across."
+        (report.AreGradients ? "gradients have no part across."
                              : "values are those at the nearest point of it."),
       Message::Note });
   }
-  if (counts.WithoutGradient > 0)
+  if (report.WithoutGradient > 0)
   {
     messages.push_back({ "no gradient",
-      std::to_string(counts.WithoutGradient) + places +
+      std::to_string(report.WithoutGradient) + places +
         "have no gradient: no samples around are in use and have finite values. Choose another"
         " array, or show hidden samples.",
-      counts.WithoutGradient == counts.Places ? Message::Warning : Message::Note });
+      report.WithoutGradient == report.Places ? Message::Warning : Message::Note });
   }
-  if (!counts.Own.empty())
+  if (!report.Replaced.empty())
   {
-    messages.push_back(vtkDescribeLeftOut(counts.Own,
+    messages.push_back(vtkDescribeLeftOut(report.Replaced,
       "The output has an array of its own with this name. Rename that of the samples."));
   }
-  if (!counts.Dropped.empty())
+  if (!report.NotCommon.empty())
   {
-    messages.push_back(vtkDescribeLeftOut(counts.Dropped,
+    messages.push_back(vtkDescribeLeftOut(report.NotCommon,
       "Only arrays of numbers are interpolated that all blocks have, with the same components."));
   }
   return messages;

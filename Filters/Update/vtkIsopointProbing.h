@@ -38,7 +38,7 @@ public:
   void Run(vtkDataObject* output, const std::function<void()>& work);
 
   /// Of the last update; all 0 if it failed.
-  const isopoint::SampleCounts& GetCounts() const { return this->Counts.Samples; }
+  const isopoint::SampleCounts& GetCounts() const { return this->Report.Samples; }
 
   // For the work, in this order. All are collective.
 
@@ -79,7 +79,7 @@ public:
     const std::vector<isopoint::Vector>& places, const isopoint::ProbeOptions& options);
 
 private:
-  struct Counting
+  struct ProbeReport
   {
     isopoint::SampleCounts Samples;
     std::uint64_t Places = 0;
@@ -89,15 +89,15 @@ private:
     bool IsOutsideLost = false; // whether places outside get no values, or are hidden
     bool AreGradients = false;
     std::uint64_t WithoutGradient = 0; // places that are finite
-    std::set<std::string> Own;         // arrays of samples, replaced by the filter's
-    std::set<std::string> Dropped;     // arrays
+    std::set<std::string> Replaced;    // arrays of samples, by the filter's own
+    std::set<std::string> NotCommon;   // arrays that not all blocks have
   };
   void Probe(const std::vector<isopoint::Vector>& places, const isopoint::ProbeOptions& options,
     const std::vector<isopoint::ProbedArray>& arrays, std::vector<std::uint8_t>& kinds);
   std::vector<isopoint::Message> Describe() const;
 
   vtkIsopointUpdate& Update;
-  Counting Counts;
+  ProbeReport Report; // of the last update
 
   // Of the present update.
   vtkIsopointCloud* Cloud = nullptr;

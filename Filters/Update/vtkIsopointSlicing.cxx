@@ -27,6 +27,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
@@ -37,33 +38,28 @@
 namespace
 {
 
-/// The options that ranks must share, without the function.
-std::string textOf(const vtkIsopointSlicing::Options& options)
-{
-  std::ostringstream text;
-  text << std::hexfloat << (options.Method ? static_cast<int>(*options.Method) : -1);
-  for (const double offset : options.GetValues())
-  {
-    text << " " << offset + 0.0;
-  }
-  isopoint::forEachOption(
-    options.Core, [&](const auto& option) { text << " " << options.Core.*option.value + 0.0; });
-  return text.str();
-}
+// Shares of the progress: where the function is evaluated, the tree loaded, triangles extracted.
+constexpr double evaluated = 0.05;
+constexpr double loaded = 0.2;
+constexpr double extracted = 0.5;
 
-/// The positions of a block's samples.
-vtkSmartPointer<vtkDoubleArray> positionsOf(const vtkIsopointBlock& block)
+/// The number of samples of a block with a finite position and a value that is not.
+std::uint64_t countLacking(const isopoint::Execution& execution, const vtkIsopointBlock& block)
 {
-  const vtkIsopointPositions read(block.Positions);
-  auto positions = vtkSmartPointer<vtkDoubleArray>::New();
-  positions->SetNumberOfComponents(3);
-  vtkAllocateTuples(positions, block.GetNumberOfSamples());
-  double* const numbers = positions->GetPointer(0);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(block.GetNumberOfSamples()); ++i)
-  {
-    read(i, numbers + 3 * i);
-  }
-  return positions;
+  const vtkIsopointPositions positions(block.Positions);
+  const vtkIsopointNumbers values(block.Scalars);
+  std::atomic<std::uint64_t> lacking{ 0 };
+  isopoint::forEachIndex(execution, static_cast<std::size_t>(block.GetNumberOfSamples()),
+    [&](std::size_t i)
+    {
+      if (!std::isfinite(values(i)))
+      {
+        isopoint::Vector position;
+        positions(i, position.data());
+        lacking += isopoint::isFinite(position) ? 1 : 0;
+      }
+    });
+  return lacking;
 }
 
 } // namespace
@@ -88,15 +84,15 @@ isopoint::Options vtkIsopointSlicing::OptionsOfCore()
 void vtkIsopointSlicing::Run(
   const Options& options, vtkInformation* inputInfo, vtkInformation* outputInfo)
 {
-  this->Report = isopoint::Report();
-  this->Dropped.clear();
-  const bool isDone = this->Update.Run(
-    vtkDataObject::GetData(outputInfo), [&]() { this->Slice(options, inputInfo, outputInfo); },
-    [this](isopoint::OptionNaming naming) { return this->Describe(naming); });
-  if (!isDone)
+  const auto clear = [this]()
   {
     this->Report = isopoint::Report();
-  }
+    this->Dropped.clear();
+  };
+  const bool isDone = this->Update.Run(
+    vtkDataObject::GetData(outputInfo), clear,
+    [&]() { this->Slice(options, inputInfo, outputInfo); },
+    [this](isopoint::OptionNaming naming) { return this->Describe(naming); });
   if (!isDone || !this->Update.KeepsTrees())
   {
     this->Values.clear();
@@ -115,8 +111,9 @@ void vtkIsopointSlicing::Slice(
   const vtkIsopointCut cut(options.Function);
   cut.Check();
   isopoint::checkOptions(options.Core, this->Update.GetOptionNaming());
-  this->Update.CheckOptionsOnRanks(
-    textOf(options), options.Core.capping ? "find the body of" : "slice");
+  const int method = options.Method ? static_cast<int>(*options.Method) : -1;
+  this->Update.CheckOptionsOnRanks(std::to_string(method) + options.Describe(),
+    options.Core.capping ? "find the body of" : "slice");
   const int ghostLevels = this->Update.GetGhostLevels(outputInfo);
 
   vtkIsopointCloud& cloud = this->Load(cut, inputInfo);
@@ -126,8 +123,6 @@ void vtkIsopointSlicing::Slice(
   this->Report = isopoint::Report(options.Core, isopoint::sortedIsovalues(isovalues));
   this->Report.countSamples(cloud.Extractor, vtkCountIsopointSamples(cloud.Blocks));
 
-  constexpr double loaded = 0.2; // shares of the progress
-  constexpr double extracted = 0.5;
   std::vector<isopoint::ExtractedIsosurface> surfaces = isopoint::extractIsovalues(
     isopoint::partOf(this->Update.GetExecution(), loaded, options.Method ? extracted : 1.0),
     cloud.Extractor, options.Core, ghostLevels, this->Report);
@@ -143,29 +138,20 @@ void vtkIsopointSlicing::Slice(
 }
 
 /// @throws isopoint::UsageError if the function is not finite at a sample with a finite position
-void vtkIsopointSlicing::CheckValues(const vtkIsopointCloud& cloud) const
+void vtkIsopointSlicing::CheckValues(const vtkIsopointCloud& cloud)
 {
   std::uint64_t lacking = 0;
-  std::uint64_t all = 0;
-  for (std::size_t block = 0; block < cloud.Blocks.size(); ++block)
+  if (this->ValuesOf != cloud.State) // otherwise they were checked
   {
-    const vtkIsopointPositions positions(cloud.Blocks[block].Positions);
-    const double* const values = this->Values[block]->GetPointer(0);
-    const auto count = static_cast<std::size_t>(cloud.Blocks[block].GetNumberOfSamples());
-    for (std::size_t i = 0; i < count; ++i)
+    for (const vtkIsopointBlock& block : cloud.Blocks)
     {
-      isopoint::Vector position;
-      if (!std::isfinite(values[i]))
-      {
-        positions(i, position.data());
-        lacking +=
-          std::all_of(position.begin(), position.end(), [](double x) { return std::isfinite(x); });
-      }
+      lacking += countLacking(this->Update.GetExecution(), block);
     }
-    all += count;
+    this->ValuesOf = cloud.State;
   }
   lacking = this->Update.GetProcesses().sum(lacking);
-  all = this->Update.GetProcesses().sum(all);
+  const std::uint64_t all =
+    this->Update.GetProcesses().sum(vtkCountIsopointSamples(cloud.Blocks).items);
   if (lacking > 0)
   {
     throw isopoint::UsageError("The cut function is not finite at " + std::to_string(lacking) +
@@ -213,24 +199,20 @@ vtkIsopointCloud& vtkIsopointSlicing::Load(const vtkIsopointCut& cut, vtkInforma
     this->Update.FindCloud(0, this->Update.GetInput().GetBlocks().size(), 0, cut.GetState());
   this->CheckFunctionOnRanks(cut, cloud);
   cloud.Types.areFloatValues = false;
-  constexpr double evaluated = 0.05; // shares of the progress
-  constexpr double loaded = 0.2;
   if (this->ValuesOf != cloud.State)
   {
-    this->ValuesOf.clear();
     this->Values.clear();
     for (const vtkIsopointBlock& block : cloud.Blocks)
     {
       this->Values.push_back(
         cut.FindValues(isopoint::partOf(this->Update.GetExecution(), 0.0, evaluated), block));
     }
-    this->ValuesOf = cloud.State;
   }
-  this->CheckValues(cloud);
   for (std::size_t i = 0; i < cloud.Blocks.size(); ++i)
   {
     cloud.Blocks[i].Scalars = this->Values[i];
   }
+  this->CheckValues(cloud);
   this->Update.Load(isopoint::partOf(this->Update.GetExecution(), evaluated, loaded), cloud);
   return cloud;
 }
@@ -240,17 +222,8 @@ void vtkIsopointSlicing::FillOutput(const Options& options, const vtkIsopointCut
   vtkPolyData* output)
 {
   const isopoint::Execution& execution = this->Update.GetExecution();
-  std::vector<vtkIsopointBlock> blocks = cloud.Blocks;
-  std::vector<vtkSmartPointer<vtkDoubleArray>> positions; // instead of values; owns them
-  for (vtkIsopointBlock& block : blocks)
-  {
-    if (!cut.IsPlane())
-    {
-      positions.push_back(positionsOf(block));
-      block.Scalars = positions.back();
-    }
-  }
-  const vtkIsopointEndSamples samples(this->Update.GetProcesses(), blocks, surfaces);
+  const vtkIsopointEndSamples samples(this->Update.GetProcesses(), cloud.Blocks, surfaces,
+    cut.IsPlane() ? vtkIsopointEndSamples::Values : vtkIsopointEndSamples::Positions);
   const bool isSingle = isopoint::isSinglePrecision(options.Core, cloud.Types.areFloatPositions);
   output->SetPoints(
     vtkNewIsopointPositions(execution, surfaces, isSingle ? VTK_FLOAT : VTK_DOUBLE));
@@ -259,7 +232,7 @@ void vtkIsopointSlicing::FillOutput(const Options& options, const vtkIsopointCut
     execution, samples.GetAttributes(), samples.GetScalars(), surfaces, output->GetPointData());
   if (!cut.IsPlane())
   {
-    cut.MovePoints(execution, surfaces, samples.GetAttributes(), samples.GetScalars(), output);
+    cut.MovePoints(execution, surfaces, samples, output);
   }
   std::set<std::string> others;
   vtkListIsopointArrays(this->Update.GetProcesses(), cloud.Blocks, others);
@@ -292,7 +265,6 @@ void vtkIsopointSlicing::Fit(
   {
     return;
   }
-  constexpr double extracted = 0.5; // share of the progress
   for (const vtkSmartPointer<vtkDataArray>& found :
     vtkProbeIsopointArrays(arrays, cloud.Blocks, options, places.size(), processes.size() == 1,
       [&](const std::vector<isopoint::ProbedArray>& probed)

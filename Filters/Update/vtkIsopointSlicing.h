@@ -51,7 +51,7 @@ public:
 
 private:
   void Slice(Options options, vtkInformation* inputInfo, vtkInformation* outputInfo);
-  void CheckValues(const vtkIsopointCloud& cloud) const;
+  void CheckValues(const vtkIsopointCloud& cloud);
   void CheckFunctionOnRanks(const vtkIsopointCut& cut, const vtkIsopointCloud& cloud);
   vtkIsopointCloud& Load(const vtkIsopointCut& cut, vtkInformation* inputInfo);
   void FillOutput(const Options& options, const vtkIsopointCut& cut, vtkIsopointCloud& cloud,

@@ -46,9 +46,42 @@ void vtkIsopointUpdate::Clear()
   this->Input = vtkIsopointBlocks();
 }
 
-bool vtkIsopointUpdate::Run(
-  vtkDataObject* output, const std::function<void()>& work, const Describer& describe)
+namespace
 {
+
+unsigned long errorCodeOf(isopoint::Failure::Kinds kind)
+{
+  switch (kind)
+  {
+    case isopoint::Failure::InvalidUsage:
+      return EINVAL;
+    case isopoint::Failure::OutOfMemory:
+      return ENOMEM;
+    case isopoint::Failure::Bug:
+      return vtkErrorCode::UnknownError;
+    default:
+      return 0;
+  }
+}
+
+/// A name as in ParaView's panel: DropGaps is "Drop Gaps" there.
+std::string panelNameOf(const char* name)
+{
+  std::string words;
+  for (const char* letter = name; *letter != '\0'; ++letter)
+  {
+    const bool startsWord = *letter >= 'A' && *letter <= 'Z' && !words.empty();
+    words += startsWord ? std::string{ ' ', *letter } : std::string(1, *letter);
+  }
+  return words;
+}
+
+} // namespace
+
+bool vtkIsopointUpdate::Run(vtkDataObject* output, const std::function<void()>& clear,
+  const std::function<void()>& work, const Describer& describe)
+{
+  clear();
   this->Current = this->Settings; // they may change meanwhile
   this->ErrorCode = 0;
   isopoint::Failure failure;
@@ -81,6 +114,7 @@ bool vtkIsopointUpdate::Run(
     this->ReportMessages(describe);
     return true;
   }
+  clear();
   output->Initialize();
   this->ErrorCode = this->ReportFailure(failure);
   return false;
@@ -178,26 +212,6 @@ void vtkIsopointUpdate::DropTrees(std::size_t first)
   this->Trees.erase(this->Trees.lower_bound(first), this->Trees.end());
 }
 
-namespace
-{
-
-unsigned long errorCodeOf(isopoint::Failure::Kinds kind)
-{
-  switch (kind)
-  {
-    case isopoint::Failure::InvalidUsage:
-      return EINVAL;
-    case isopoint::Failure::OutOfMemory:
-      return ENOMEM;
-    case isopoint::Failure::Bug:
-      return vtkErrorCode::UnknownError;
-    default:
-      return 0;
-  }
-}
-
-} // namespace
-
 /// Reports a failure on the first rank. @returns the error code of all ranks
 unsigned long vtkIsopointUpdate::ReportFailure(isopoint::Failure& failure)
 {
@@ -223,23 +237,6 @@ unsigned long vtkIsopointUpdate::ReportFailure(isopoint::Failure& failure)
   }
   return code;
 }
-
-namespace
-{
-
-/// A name as in ParaView's panel: DropGaps is "Drop Gaps" there.
-std::string panelNameOf(const char* name)
-{
-  std::string words;
-  for (const char* letter = name; *letter != '\0'; ++letter)
-  {
-    const bool startsWord = *letter >= 'A' && *letter <= 'Z' && !words.empty();
-    words += startsWord ? std::string{ ' ', *letter } : std::string(1, *letter);
-  }
-  return words;
-}
-
-} // namespace
 
 isopoint::OptionNaming vtkIsopointUpdate::GetOptionNaming() const
 {

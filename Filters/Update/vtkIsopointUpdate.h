@@ -70,10 +70,12 @@ public:
 
   /// Runs the work of an update on all ranks together, then reports what `describe` says. On
   /// failure reports one error and leaves the output empty. Collective.
+  /// @param clear drops results of the last update; called first, and after a failure
   /// @param work throws isopoint::UsageError, or what isopoint::IsosurfaceExtractor throws
   /// @param describe called after success, on the first rank
   /// @returns whether it succeeded, the same on all ranks
-  bool Run(vtkDataObject* output, const std::function<void()>& work, const Describer& describe);
+  bool Run(vtkDataObject* output, const std::function<void()>& clear,
+    const std::function<void()>& work, const Describer& describe);
 
   /// Of the last update, the same on all ranks: 0 after a success or an abort.
   unsigned long GetErrorCode() const { return this->ErrorCode; }

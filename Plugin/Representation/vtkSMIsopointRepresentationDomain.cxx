@@ -51,8 +51,6 @@ bool makesSplats(vtkSMProxy* source)
          isOn("ComputeSplats");
 }
 
-const char* const splats = "Isopoint Splats";
-
 } // namespace
 
 bool vtkSMIsopointRepresentationDomain::AreIsopoints(vtkPVDataInformation* data)
@@ -96,11 +94,11 @@ void vtkSMIsopointRepresentationDomain::OfferSplats()
     return; // the types are not listed yet
   }
   std::vector<std::string> types = this->Types->GetElements();
-  types.erase(std::remove(types.begin(), types.end(), splats), types.end());
+  types.erase(std::remove(types.begin(), types.end(), Splats), types.end());
   this->NoticeSplats();
   if (this->HasSplats)
   {
-    types.insert(std::lower_bound(types.begin(), types.end(), splats), splats);
+    types.insert(std::lower_bound(types.begin(), types.end(), Splats), Splats);
     vtkSMIsopointSourceProxy::LoadInTrace();
   }
   this->Types->SetElements(types);
@@ -136,7 +134,7 @@ void vtkSMIsopointRepresentationDomain::SetLateDefault(vtkSMProxy* representatio
   {
     return;
   }
-  type.Set(splats);
+  type.Set(Splats);
   representation->UpdateVTKObjects();
   // The points may come in an update of the view, which does not notice this change.
   for (unsigned int i = 0; i < representation->GetNumberOfConsumers(); ++i)
@@ -169,6 +167,6 @@ int vtkSMIsopointRepresentationDomain::SetDefaultValues(
   {
     return 0;
   }
-  helper.Set(splats);
+  helper.Set(Splats);
   return 1;
 }

@@ -32,6 +32,9 @@ public:
   static vtkSMIsopointRepresentationDomain* New();
   vtkTypeMacro(vtkSMIsopointRepresentationDomain, vtkSMDomain);
 
+  /// The type of representation.
+  static constexpr const char* Splats = "Isopoint Splats";
+
   /**
    * Whether data are isopoints, possibly filtered: they have the point arrays "Normals" of three
    * components and "Radius" of one, and either no cells or one vertex per point.

@@ -40,7 +40,7 @@ bool isOpaqueSplats(pqDataRepresentation* representation)
 {
   vtkSMProxy* const proxy = representation->getProxy();
   const char* const type = vtkSMPropertyHelper(proxy, "Representation", true).GetAsString();
-  return type && std::strcmp(type, "Isopoint Splats") == 0 &&
+  return type && std::strcmp(type, vtkSMIsopointRepresentationDomain::Splats) == 0 &&
          vtkSMPropertyHelper(proxy, "Opacity", true).GetAsDouble() >= 1.0;
 }
 
