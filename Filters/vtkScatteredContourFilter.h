@@ -203,12 +203,11 @@ protected:
   vtkSmartPointer<vtkDataObject> NewOutput(vtkInformationVector** inputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
+  const isopoint::Report& GetReport() const override;
 
 private:
   vtkScatteredContourFilter(const vtkScatteredContourFilter&) = delete;
   void operator=(const vtkScatteredContourFilter&) = delete;
-
-  const isopoint::Report& GetReport() const override;
 
   std::unique_ptr<vtkIsopointContouring> Contouring;
 };

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkScatteredIsopointFilter.h"
 
+#include "Core/Report.h"
 #include "Update/vtkIsopointOptions.h"
 
 #include "vtkObjectFactory.h"
+
+#include <algorithm>
+#include <vector>
 
 vtkStandardNewMacro(vtkScatteredIsopointFilter);
 
@@ -31,3 +35,12 @@ vtkIsopointOptionMacro(
   vtkScatteredIsopointFilter, NumberOfNeighbors, int, isopoint::option::numberOfNeighbors);
 vtkIsopointOptionMacro(
   vtkScatteredIsopointFilter, ComputeSplats, vtkTypeBool, isopoint::option::computeSplats);
+
+bool vtkScatteredIsopointFilter::AreSplatsApart() const
+{
+  const std::vector<isopoint::Message> messages =
+    isopoint::describeReport(this->GetReport(), &isopoint::sameName);
+  return std::any_of(messages.begin(), messages.end(),
+    [](const isopoint::Message& message)
+    { return message.code == isopoint::Message::SplatsApart; });
+}

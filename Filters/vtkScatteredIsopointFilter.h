@@ -167,6 +167,12 @@ public:
   virtual int GetNumberOfNeighbors();
   ///@}
 
+  /**
+   * Whether splats of the last update do not meet at so many corners that pictures may have holes.
+   * The update warned then, unless the update before had.
+   */
+  bool AreSplatsApart() const;
+
 protected:
   vtkScatteredIsopointFilter();
   ~vtkScatteredIsopointFilter() override = default;

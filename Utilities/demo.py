@@ -165,15 +165,13 @@ def compare(pictures, bounds, path):
 
 
 def contoured(source, array, isovalue, is_mesh):
-    """The updated filter, and its warnings."""
+    """The updated filter."""
     filter_ = (simple.ScatteredIsosurface if is_mesh else simple.ScatteredIsopoints)(Input=source)
     filter_.ContourBy = ["POINTS", array]
     filter_.Isosurfaces = [isovalue]
-    warnings = []
 
     def warn(_, __, text):
-        warnings.append(text.split("): ", 1)[-1].strip())  # without the names of the source file and object
-        say("warning: " + warnings[-1])
+        say("warning: " + text.split("): ", 1)[-1].strip())  # without the names of the source file and object
 
     warn.CallDataType = "string0"
     filter_.GetClientSideObject().AddObserver("WarningEvent", warn)
@@ -186,7 +184,7 @@ def contoured(source, array, isovalue, is_mesh):
         say("triangles         %d" % output.GetNumberOfPolys())
     say("%s         %d" % ("vertices " if is_mesh else "isopoints", output.GetNumberOfPoints()))
     say("seconds           %.3f" % seconds)
-    return filter_, warnings
+    return filter_
 
 
 def draw(surface, is_mesh, path, bounds):
@@ -210,7 +208,7 @@ def main(plugin):
         source = sphere_samples()
 
     is_mesh = os.environ.get("ISOPOINTS_FILTER") == "triangles"
-    isopoints, warnings = contoured(source, array, float(isovalue), is_mesh)
+    isopoints = contoured(source, array, float(isovalue), is_mesh)
     output = isopoints.GetClientSideObject().GetOutputDataObject(0)
     if output.GetNumberOfPoints() == 0:
         limits = source.PointData[array].GetRange()
@@ -223,9 +221,9 @@ def main(plugin):
 
     bounds = output.GetBounds()
     written = draw(isopoints, is_mesh, "isosurface.png", bounds)
-    if any("Splats do not meet" in warning for warning in warnings):
+    if not is_mesh and isopoints.GetClientSideObject().AreSplatsApart():
         say("isosurface.png shows splats, which leave holes between these samples; triangles.png will show triangles")
-        triangles, _ = contoured(source, array, float(isovalue), True)
+        triangles = contoured(source, array, float(isovalue), True)
         written += draw(triangles, True, "triangles.png", bounds)
     if not path and not is_mesh:
         say(

@@ -391,11 +391,18 @@ TEST(ProbeFilters, GridFillsTheBoundsOfTheSamples)
     }
   }
   EXPECT_EQ(cells, whole->GetNumberOfCells());
+}
 
-  // An axis without length has one layer, also for the next update.
+TEST(ProbeFilters, GridOfFlatSamplesHasOneLayerAlsoForTheNextUpdate)
+{
+  const auto cloud = newCloud(1000, VTK_DOUBLE);
+  const auto filter = filterOn<Grid>(cloud);
+  filter->SetSamplingDimensions(6, 5, 4);
+  filter->Update();
   move(cloud->GetPoints(), [](const Vector& p) { return Vector{ p[0], p[1], 3.0 }; });
   cloud->GetPoints()->Modified();
   filter->Update();
+  int dimensions[3];
   filter->GetOutput()->GetDimensions(dimensions);
   EXPECT_EQ(dimensions[2], 1);
   EXPECT_EQ(filter->GetOutput()->GetBounds()[4], 3.0);
@@ -425,8 +432,11 @@ TEST(ProbeFilters, GridFillsTheBoundsOfTheSamples)
   filter->UpdatePiece(0, 1, 0);
   filter->GetOutput()->GetDimensions(dimensions);
   EXPECT_EQ(dimensions[2], 40);
-  filter->SetInputData(cloud);
-  filter->UpdatePiece(0, 1, 0);
+}
+
+TEST(ProbeFilters, GridMayHaveBoundsOfItsOwn)
+{
+  const auto filter = filterOn<Grid>(newCloud(1000));
   filter->UseInputBoundsOff();
   filter->SetSamplingBounds(0.0, 1.0, 1.0, 0.0, 0.0, 1.0);
   expectError(filter, "ascending");
