@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkScatteredIsopointFilter.h"
 
-#include "Core/Report.h"
+#include "Update/vtkIsopointContouring.h"
 #include "Update/vtkIsopointOptions.h"
 
 #include "vtkObjectFactory.h"
@@ -36,11 +36,12 @@ vtkIsopointOptionMacro(
 vtkIsopointOptionMacro(
   vtkScatteredIsopointFilter, ComputeSplats, vtkTypeBool, isopoint::option::computeSplats);
 
-bool vtkScatteredIsopointFilter::AreSplatsApart() const
+vtkTypeBool vtkScatteredIsopointFilter::AreSplatsApart()
 {
   const std::vector<isopoint::Message> messages =
     isopoint::describeReport(this->GetReport(), &isopoint::sameName);
-  return std::any_of(messages.begin(), messages.end(),
+  const bool areApart = std::any_of(messages.begin(), messages.end(),
     [](const isopoint::Message& message)
     { return message.code == isopoint::Message::SplatsApart; });
+  return areApart ? 1 : 0;
 }

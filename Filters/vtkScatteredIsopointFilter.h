@@ -171,7 +171,7 @@ public:
    * Whether splats of the last update do not meet at so many corners that pictures may have holes.
    * The update warned then, unless the update before had.
    */
-  bool AreSplatsApart() const;
+  vtkTypeBool AreSplatsApart();
 
 protected:
   vtkScatteredIsopointFilter();

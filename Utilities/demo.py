@@ -221,7 +221,8 @@ def main(plugin):
 
     bounds = output.GetBounds()
     written = draw(isopoints, is_mesh, "isosurface.png", bounds)
-    if not is_mesh and isopoints.GetClientSideObject().AreSplatsApart():
+    isopoints.SMProxy.UpdatePropertyInformation()
+    if not is_mesh and isopoints.SMProxy.GetProperty("AreSplatsApart").GetElement(0):
         say("isosurface.png shows splats, which leave holes between these samples; triangles.png will show triangles")
         triangles = contoured(source, array, float(isovalue), True)
         written += draw(triangles, True, "triangles.png", bounds)

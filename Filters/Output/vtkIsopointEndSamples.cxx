@@ -186,7 +186,7 @@ vtkSmartPointer<vtkDataArray> gatherPositions(const std::vector<vtkIsopointBlock
     const vtkIsopointPositions read(blocks[block].Positions);
     for (std::size_t i = ranges[block].begin; i < ranges[block].end; ++i)
     {
-      read(ids[i] - ranges[block].firstId, positions->GetPointer(static_cast<vtkIdType>(3 * i)));
+      read(ids[i] - ranges[block].firstId, positions->GetPointer(3 * static_cast<vtkIdType>(i)));
     }
   }
   return positions;

@@ -6,8 +6,9 @@
 
 #include <memory>
 
-/// Makes the quick search (Filters > Search) find the filters by "contour". It searches the names
-/// of menu entries, so each filter gets another entry, whose name has no word of the filter's.
+/// Makes the quick search (Filters > Search) find the filters by "contour", "resample" and the
+/// like. It searches the names of menu entries, so filters get another entry, whose name has no
+/// word of the filter's.
 class pqIsopointSearch
 {
 public:

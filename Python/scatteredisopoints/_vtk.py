@@ -104,6 +104,17 @@ class _Contour(ContourValues, ScatteredAlgorithm):
 class vtkScatteredIsopointFilter(_Contour):
     """Isosurfaces of scattered samples as points: see the compiled class of this name."""
 
+    _are_apart = False
+
+    def AreSplatsApart(self) -> bool:
+        return self._are_apart
+
+    def _compute(self, data: Any, output: Any) -> list[_library.Message]:
+        self._are_apart = False
+        messages = super()._compute(data, output)
+        self._are_apart = any(message.code == _library.SPLATS_APART for message in messages)
+        return messages
+
 
 @with_properties("ScatteredIsosurface")
 class vtkScatteredIsosurfaceFilter(_Contour):

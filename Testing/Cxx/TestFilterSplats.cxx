@@ -64,24 +64,6 @@ TEST(FilterSplats, ArraysArePresentIfRequested)
   }
 }
 
-TEST(FilterSplats, AreApartWhereSamplesAreTooFewForTheField)
-{
-  const auto cloud = newCloud(5000);
-  const auto filter = newFilter(cloud);
-  outputOf(filter);
-  EXPECT_FALSE(filter->AreSplatsApart());
-  vtkDataArray* const values = cloud->GetPointData()->GetScalars();
-  for (vtkIdType i = 0; i < cloud->GetNumberOfPoints(); ++i)
-  {
-    const double* const place = cloud->GetPoint(i);
-    const double wave = std::sin(25.0 * place[0]) + std::sin(25.0 * place[1] + 25.0 * place[2]);
-    values->SetComponent(i, 0, filter->GetValue(0) + wave);
-  }
-  values->Modified();
-  outputOf(filter);
-  EXPECT_TRUE(filter->AreSplatsApart());
-}
-
 TEST(FilterSplats, NormalsAreThoseOfFitsOnlyWhereFitsAreMade)
 {
   const auto filter = newFilter(newCloud(5000));

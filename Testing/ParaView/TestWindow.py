@@ -92,9 +92,9 @@ def search_finds_each_filter_once():
             check(name.replace(" ", "") + ("2" if name == NAMES[0] else "1") in shown, f"{name} was created")
     grids = "Resample samples to an image", "Resample samples with a data set"
     for words, found, name in (("resample samples", grids, "Scattered Grid"),
-                               ("scattered gradient", ("Scattered Gradient",), "Scattered Gradient"),
-                               ("scattered slice", ("Scattered Slice",), "Scattered Slice"),
-                               ("scattered body", ("Scattered Body",), "Scattered Body")):
+                               ("derivatives of", ("Derivatives of samples",), "Scattered Gradient"),
+                               ("cut samples", ("Cut samples by a plane",), "Scattered Slice"),
+                               ("surface of particles", ("Surface of particles",), "Scattered Body")):
         shown, _ = play([*search(PARAVIEW, words, *found), APPLY], WAVELET)
         check(any(each.startswith(name.replace(" ", "")) for each in shown), f"{name} was created: {shown}")
     play([*search(PARAVIEW, "plot samples", "Plot samples over a line"), APPLY], WAVELET)  # in a view of its own

@@ -486,6 +486,17 @@ class Filters(FilterTests):
         for name in ("one", "two"):
             self.assert_one(self.texts_of(chosen(filter_, name)), f'"{name}"', "2")
 
+    def test_splats_stay_apart_where_samples_are_too_few(self):
+        data = cloud(5000)
+        filter_ = updated(self.kinds[0], data, [0.0])
+        for scale, are_apart in ((1, False), (12, True), (1, False)):
+            x, y, z = scale * vtk_to_numpy(data.GetPoints().GetData()).T
+            values_in(data)[:] = np.sin(x) + np.sin(y + z)
+            values = data.GetPointData().GetArray("distance")
+            values.Modified()
+            filter_.Update()
+            self.assertEqual(filter_.AreSplatsApart(), are_apart, scale)
+
     def test_each_invalid_use_is_one_error(self):
         data = cloud(500)
         add(data, POINTS, "names", 500 * ["name"])
