@@ -81,9 +81,9 @@ void PlaceEvaluator::evaluate(std::size_t place, const NearbySamples& around, st
     {
       this->writeNothing(array, place);
     }
-    else if (array.take)
+    else if (this->Options.method == PlaceMethod::Nearest)
     {
-      this->take(array, place, around, isOutside);
+      this->writeNearest(array, place, around, isOutside);
     }
     else if (!this->read(array, around))
     {
@@ -225,29 +225,46 @@ void PlaceEvaluator::writeNothing(const ProbedArray& array, std::size_t place) c
   }
 }
 
-void PlaceEvaluator::take(
-  const ProbedArray& array, std::size_t place, const NearbySamples& around, bool isOutside)
+/// Writes the numbers of the nearest sample whose components are all finite.
+void PlaceEvaluator::writeNearest(
+  const ProbedArray& array, std::size_t place, const NearbySamples& around, bool isOutside) const
 {
-  const std::uint64_t* found = nullptr;
-  if (!(isOutside && this->Options.outside == OutsideStrategy::Number))
+  const auto isFinite = [&](std::uint64_t id)
   {
-    found = std::find_if(around.ids.data(), around.ids.data() + around.ids.size(),
-      [&](std::uint64_t id)
+    for (int c = 0; c < array.components; ++c)
+    {
+      double number = 0.0;
+      array.read(&id, 1, c, &number);
+      if (!std::isfinite(number))
       {
-        for (int c = 0; c < array.components; ++c)
-        {
-          double number = 0.0;
-          array.read(&id, 1, c, &number);
-          if (!std::isfinite(number))
-          {
-            return false;
-          }
-        }
-        return true;
-      });
-    found = found == around.ids.data() + around.ids.size() ? nullptr : found;
+        return false;
+      }
+    }
+    return true;
+  };
+  const bool isNumber = isOutside && this->Options.outside == OutsideStrategy::Number;
+  const auto found =
+    isNumber ? around.ids.end() : std::find_if(around.ids.begin(), around.ids.end(), isFinite);
+  if (found == around.ids.end())
+  {
+    this->writeNothing(array, place);
   }
-  array.take(place, found);
+  else if (array.take)
+  {
+    array.take(place, &*found);
+  }
+  else
+  {
+    const auto components = static_cast<std::size_t>(array.components);
+    for (std::size_t c = 0; c < components; ++c)
+    {
+      array.read(&*found, 1, static_cast<int>(c), array.values + components * place + c);
+    }
+    if (array.gradients)
+    {
+      std::fill_n(array.gradients + 3 * components * place, 3 * components, 0.0);
+    }
+  }
 }
 
 } // namespace isopoint

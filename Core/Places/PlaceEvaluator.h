@@ -74,8 +74,8 @@ private:
   void apply(const ProbedArray& array, std::size_t place, PlaceFitter& fitter);
   void writeOutside(const ProbedArray& array, std::size_t place) const;
   void writeNothing(const ProbedArray& array, std::size_t place) const;
-  void take(
-    const ProbedArray& array, std::size_t place, const NearbySamples& around, bool isOutside);
+  void writeNearest(
+    const ProbedArray& array, std::size_t place, const NearbySamples& around, bool isOutside) const;
 
   const ProbeOptions& Options;
   const std::vector<ProbedArray>& Arrays;

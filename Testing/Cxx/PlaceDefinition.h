@@ -311,10 +311,37 @@ inline MatrixXd blended(const Around& around, double valueError)
   return result;
 }
 
+/// The numbers of the nearest sample with finite ones, among the 27 nearest positions.
+inline Result nearest(const clouds::Cloud& cloud, const Array& array, const Vector& place)
+{
+  std::vector<Site> sites = sitesAround(cloud, array, place);
+  sites.resize(std::min<std::size_t>(27, sites.size()));
+  for (const Site& site : sites)
+  {
+    for (std::size_t id = 0; id < cloud.size(); ++id)
+    {
+      const double* const numbers =
+        array.numbers.data() + static_cast<std::size_t>(array.components) * id;
+      const Eigen::Map<const VectorXd> values(numbers, array.components);
+      if (cloud.at(id) == cloud.at(site.id) && values.allFinite())
+      {
+        MatrixXd result = MatrixXd::Zero(4, array.components);
+        result.row(0) = values.transpose();
+        return { result };
+      }
+    }
+  }
+  return { {}, true };
+}
+
 /// The value and gradient of an array at a place, without regard to whether it is outside.
 inline Result at(const clouds::Cloud& cloud, const Array& array, const Vector& place,
   PlaceMethod method, std::size_t needed)
 {
+  if (method == PlaceMethod::Nearest)
+  {
+    return nearest(cloud, array, place);
+  }
   std::vector<Site> sites = sitesAround(cloud, array, place);
   const std::size_t most = std::min(countOf(method), sites.size());
   const double reach =
@@ -333,12 +360,6 @@ inline Result at(const clouds::Cloud& cloud, const Array& array, const Vector& p
   if (count == 0)
   {
     return { {}, true };
-  }
-  if (method == PlaceMethod::Nearest)
-  {
-    MatrixXd numbers = MatrixXd::Zero(4, array.components);
-    numbers.row(0) = with[0].values.transpose();
-    return { numbers };
   }
   const Around around(with, count, reach);
   const int degree = method == PlaceMethod::Affine || !isEnough(count, 2)      ? 1
