@@ -11,7 +11,7 @@ import numpy as np
 from . import _library
 from ._isosurface import Isosurface
 from ._option_types import BodyOptions
-from ._options import check_names, make_options, thread_count
+from ._options import check_names, make_options
 from ._progress import Progress, part, shown_progress
 from ._slices import warn_of
 
@@ -21,19 +21,16 @@ if TYPE_CHECKING:
 OPTIONS = tuple(BodyOptions.__annotations__)
 
 
-def make_body(samples: Samples, options: Mapping[str, Any], of_samples: Mapping[str, Any], threads: Optional[int],
-              report: Any) -> tuple[Isosurface, list[_library.Message]]:
-    """The body of samples, with arrays by name, and messages. Calls `report` with the share done."""
+def make_body(samples: Samples, options: Mapping[str, Any], arrays: Any, threads: Optional[int], report: Any
+              ) -> tuple[Isosurface, list[_library.Message]]:
+    """The body of samples, with arrays as of Samples.body(), and messages. Calls `report` with the share done."""
     chosen = make_options(True, {**options, "capping": True, "projection": None, "compute_normals": False})
-    threads = samples._threads if threads is None else threads
-    most_threads = thread_count(threads)
-    with samples._exclusive():
-        samples._require_samples()
-        _library.run(_library.set_extractor_threads, samples._extractor, most_threads)
+    with samples._in_call(threads) as threads:
+        of_samples = samples._arrays_of(arrays)
         if samples._held != "body":
             samples._hold("body", np.zeros(len(samples)), [samples._excluded], {"progress": part(report, 0.0, 0.3)})
         surface = samples._surface([-math.inf], chosen, {"progress": part(report, 0.3, 1.0)})
-    found = samples._interpolated(surface, of_samples, None)
+        found = samples._interpolated(surface, of_samples, None)
     isosurface = samples._as_isosurface(surface, found, [-math.inf], chosen, threads)
     isosurface.cell_arrays = {}  # all is a cap
     return isosurface, _library.messages(surface)
@@ -43,8 +40,7 @@ def body_of(samples: Samples, arrays: Any, threads: Optional[int], progress: Pro
             stacklevel: int) -> Isosurface:
     """Samples.body()."""
     check_names(options, OPTIONS)
-    of_samples = samples._arrays_of(arrays)
     with shown_progress(progress, "Finding the body") as report:
-        made, messages = make_body(samples, options, of_samples, threads, report)
+        made, messages = make_body(samples, options, arrays, threads, report)
     warn_of(samples, made, messages, arrays is None, stacklevel + 1)
     return made

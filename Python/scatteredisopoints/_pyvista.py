@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import inspect
 import math
 import operator
@@ -10,7 +11,7 @@ import threading
 import warnings
 import weakref
 from collections import OrderedDict
-from typing import Any, Callable, Collection, Iterable, Mapping, Optional, Sequence, Union
+from typing import Any, Callable, Collection, Iterable, Iterator, Mapping, Optional, Sequence, Union
 
 import numpy as np
 import pyvista as pv
@@ -105,19 +106,18 @@ class ScatteredAccessor:
         for name in options.keys() & _NAMES.keys():
             raise TypeError(f"unknown option {name}: did you mean {_NAMES[name]}?")
         keeps = options.get("keep_tree", True)
-        samples = self._load(scalars, preference, progress_bar, threads, keeps)
-        if isinstance(isosurfaces, (int, np.integer)) and not isinstance(isosurfaces, bool):
-            if isosurfaces < 0:
-                raise ValueError(f"isosurfaces cannot be {isosurfaces}: give their number, 0 or more, or a list of"
-                                 " isovalues")
-            if rng is not None and (np.shape(rng) != (2,) or np.asarray(rng).dtype.kind not in "fiu"):
-                raise ValueError(f"rng cannot be {rng!r}: rng has two values, the least and the greatest isovalue")
-            count = int(isosurfaces)
-            isosurfaces = (np.linspace(*samples.range, count + 2)[1:-1].tolist() if rng is None
-                           else np.linspace(rng[0], rng[1], count).tolist())
-        surface = samples._contour(
-            isosurfaces, triangles, options.pop("arrays", None), threads, progress_bar, options, stacklevel=3)
-        return surface.polydata
+        with self._loaded(scalars, preference, progress_bar, threads, keeps) as samples:
+            if isinstance(isosurfaces, (int, np.integer)) and not isinstance(isosurfaces, bool):
+                if isosurfaces < 0:
+                    raise ValueError(f"isosurfaces cannot be {isosurfaces}: give their number, 0 or more, or a list of"
+                                     " isovalues")
+                if rng is not None and (np.shape(rng) != (2,) or np.asarray(rng).dtype.kind not in "fiu"):
+                    raise ValueError(f"rng cannot be {rng!r}: rng has two values, the least and the greatest isovalue")
+                count = int(isosurfaces)
+                isosurfaces = (np.linspace(*samples.range, count + 2)[1:-1].tolist() if rng is None
+                               else np.linspace(rng[0], rng[1], count).tolist())
+            return samples._contour(isosurfaces, triangles, options.pop("arrays", None), threads, progress_bar, options,
+                                    stacklevel=3).polydata
 
     def body(
         self,
@@ -142,9 +142,9 @@ class ScatteredAccessor:
         pyvista.PolyData
             Closed triangles between samples, with their arrays.
         """
-        samples, arrays = self._samples_with(scalars, preference, progress_bar, threads, needs_arrays=False)
-        return body_of(samples, None if scalars is None else arrays, threads, progress_bar, options,
-                       stacklevel=3).polydata
+        with self._samples_with(scalars, preference, progress_bar, threads, needs_arrays=False) as (samples, arrays):
+            return body_of(samples, None if scalars is None else arrays, threads, progress_bar, options,
+                           stacklevel=3).polydata
 
     def splats(self, scale: float = 1.0, *, threads: Optional[int] = None) -> pv.PolyData:
         """Turn isopoints into polygons that show them as a closed surface.
@@ -373,11 +373,11 @@ class ScatteredAccessor:
         scalars, preference = options.pop("scalars", None), options.pop("preference", "point")
         offsets, interpolation = options.pop("offsets", 0.0), options.pop("interpolation", "fits")
         threads = options.pop("threads", None)
-        samples, arrays = self._samples_with(scalars, preference, progress, threads, needs_arrays=False)
-        if origin is None and function is None:
-            origin = _datasets.bounds_of(self._dataset).mean(axis=1)
-        result = sliced(samples, normal, origin, None if scalars is None else arrays, function, offsets, interpolation,
-                        threads, progress, options, stacklevel=4).polydata
+        with self._samples_with(scalars, preference, progress, threads, needs_arrays=False) as (samples, arrays):
+            if origin is None and function is None:
+                origin = _datasets.bounds_of(self._dataset).mean(axis=1)
+            result = sliced(samples, normal, origin, None if scalars is None else arrays, function, offsets,
+                            interpolation, threads, progress, options, stacklevel=4).polydata
         return result.contour() if switch("contour", contour) and result.n_cells else result
 
     def compute_derivative(
@@ -417,11 +417,12 @@ class ScatteredAccessor:
         if are_names(scalars):
             raise TypeError("scalars are one array: call compute_derivative() for each")
         wanted = names_of_derivatives(gradient, divergence, vorticity, qcriterion)
-        samples, _ = self._samples_with(scalars, preference, progress_bar, threads)
-        if not hasattr(self._dataset, "GetCellData"):
-            raise TypeError(f"A {type(self._dataset).__name__} has no samples of its own: call compute_derivative()"
-                            " for each block.")
-        gradients = samples._gradient(scalars, method, threads, progress_bar, stacklevel=3)
+        with self._samples_with(scalars, preference, progress_bar, threads) as (samples, _):
+            if not hasattr(self._dataset, "GetCellData"):
+                raise TypeError(f"A {type(self._dataset).__name__} has no samples of its own: call compute_derivative()"
+                                " for each block.")
+            gradients = samples._gradient(scalars, method, threads, progress_bar, stacklevel=3)
+            are_cells = samples._association == CELL
         count = math.prod(gradients.shape[1:-1])
         of_vectors = [name for name in wanted if name != "gradient"]
         if count != 3 and of_vectors:
@@ -430,7 +431,7 @@ class ScatteredAccessor:
                              f" component{'s' if count > 1 else ''}: choose vectors, which have three")
         gradients = gradients.reshape(len(gradients), count, 3)
         result = self._dataset.copy(deep=False)
-        attributes = result.cell_data if samples._association == CELL else result.point_data
+        attributes = result.cell_data if are_cells else result.point_data
         _warn_of_replaced(wanted.values(), attributes.keys(), stacklevel=3)
         _add_arrays(attributes, {label: DERIVATIVES[name](gradients) for name, label in wanted.items()})
         return result
@@ -441,19 +442,21 @@ class ScatteredAccessor:
         """probe(), with further arrays that are computed."""
         data = _datasets.data_object(where)
         places = pv.PolyData(_datasets.places_of(where).copy()) if data is None else data
-        samples, arrays = self._samples_with(scalars, preference, progress_bar, threads)
-        found = samples._probe(places, arrays, gradient, method, outside, threads, progress_bar, stacklevel=4)
+        with self._samples_with(scalars, preference, progress_bar, threads) as (samples, arrays):
+            found = samples._probe(places, arrays, gradient, method, outside, threads, progress_bar, stacklevel=4)
+            differing = samples._differing if scalars is None else ()
         values, gradients = found if gradient else (found, {})
         computed = {**{name + "_gradient": array for name, array in gradients.items()}, **(computed or {})}
         _warn_of_replaced(computed, values, stacklevel=4)
-        if scalars is None and samples._differing:
-            warnings.warn(_datasets.describe_differing(samples._differing), RuntimeWarning, stacklevel=3)
+        if differing:
+            warnings.warn(_datasets.describe_differing(differing), RuntimeWarning, stacklevel=3)
         result = pv.wrap(places).copy(deep=False)
         _add_arrays(result.point_data, {**values, **computed})
         return result
 
+    @contextlib.contextmanager
     def _samples_with(self, scalars: Any, preference: str, progress: Progress, threads: Optional[int],
-                      needs_arrays: bool = True) -> tuple[Samples, dict[str, Any]]:
+                      needs_arrays: bool = True) -> Iterator[tuple[Samples, dict[str, Any]]]:
         """The samples without values, kept for the next call, and the arrays to probe.
 
         needs_arrays: whether data without any have no samples.
@@ -469,13 +472,12 @@ class ScatteredAccessor:
                 return _datasets.samples_at(data, with_arrays=True)
             return _datasets.samples_with(data, names, (CELL,) if is_bare else associations)
 
-        samples = _kept_samples(data, ("without values", is_bare, *names, *associations), find, progress, threads, True)
-        if scalars is not None and not names:
-            return samples, {"values": scalars}
-        if scalars is None:
-            uses = samples._maker.uses
-            names = [name for name in samples._arrays or {} if uses.get(name) != _datasets.PEDIGREE_IDS]
-        return samples, {name: name for name in names}
+        choice = "without values", is_bare, *names, *associations
+        with _kept_samples(data, choice, find, progress, threads, True) as samples:
+            if scalars is None:
+                uses = samples._maker.uses
+                names = [name for name in samples._arrays or {} if uses.get(name) != _datasets.PEDIGREE_IDS]
+            yield samples, {name: name for name in names} if scalars is None or names else {"values": scalars}
 
     def _checked(self) -> Any:
         """The data, if these can have samples."""
@@ -485,14 +487,19 @@ class ScatteredAccessor:
                             " positions first.")
         return data
 
-    def _load(self, scalars: Any, preference: str, progress: Progress, threads: Optional[int], keeps: bool) -> Samples:
+    @contextlib.contextmanager
+    def _loaded(self, scalars: Any, preference: str, progress: Progress, threads: Optional[int], keeps: bool
+                ) -> Iterator[Samples]:
+        """The samples with values."""
         data, associations = self._checked(), _associations(preference)
         if scalars is None:
             scalars, associations = _active_scalars(data)
         if not isinstance(scalars, str):
-            return Samples(data, scalars, threads=threads, progress=progress)
-        return _kept_samples(data, (scalars, *associations), lambda: _datasets.samples_of(data, scalars, associations),
-                             progress, threads, keeps)
+            yield Samples(data, scalars, threads=threads, progress=progress)
+            return
+        with _kept_samples(data, (scalars, *associations), lambda: _datasets.samples_of(data, scalars, associations),
+                           progress, threads, keeps) as samples:
+            yield samples
 
 
 def _associations(preference: str) -> tuple[int, ...]:
@@ -547,10 +554,11 @@ def _renew_lock() -> None:
     _lock = threading.Lock()
 
 
+@contextlib.contextmanager
 def _kept_samples(data: Any, choice: tuple, find: Callable[[], _datasets.DataSamples], progress: Progress,
-                  threads: Optional[int], keeps: bool) -> Samples:
+                  threads: Optional[int], keeps: bool) -> Iterator[Samples]:
     """The samples of a data set that a function finds for a choice of arrays; reuses those of the last call, or
-    their tree. Keeps them for the next one if wanted."""
+    their tree. No other call gets them meanwhile. Keeps them for the next one if wanted."""
     id_, key = id(data), (choice, _datasets.state_of(data))
     with _lock:
         kept = _kept.pop(id_, None)
@@ -563,10 +571,12 @@ def _kept_samples(data: Any, choice: tuple, find: Callable[[], _datasets.DataSam
                 samples = Samples._of(find(), threads, progress=report)
             else:
                 samples._take(find(), progress=report)
-    if not keeps:
-        return samples
-    with _lock:
-        _kept[id_] = weakref.ref(data, lambda _: _kept.pop(id_, None)), key, samples
-        while len(_kept) > MOST_KEPT:
-            _kept.popitem(last=False)
-    return samples
+    try:
+        yield samples
+    finally:
+        if keeps:
+            with _lock:
+                _kept[id_] = weakref.ref(data, lambda _: _kept.pop(id_, None)), key, samples
+                _kept.move_to_end(id_)
+                while len(_kept) > MOST_KEPT:
+                    _kept.popitem(last=False)

@@ -87,7 +87,6 @@ class Samples:
         self._renew_lock()
         _all.add(self)
         self._threads = threads
-        self._range = (np.nan, np.nan)
         self._skipped = 0
         self._clear()
 
@@ -95,6 +94,7 @@ class Samples:
         """Frees the samples and their tree."""
         self._extractor = _library.Extractor(_library.create_extractor())
         self._is_loaded = False
+        self._range = (np.nan, np.nan)
         self._held: Any = None
         self._values: Any = None
 
@@ -118,7 +118,7 @@ class Samples:
         return self._count
 
     def __repr__(self) -> str:
-        if self._values is None:
+        if self._values is None or not self._is_loaded:
             return f"<Samples: {len(self)}, {'without values' if self._is_loaded else 'freed'}>"
         least, greatest = self.range
         return f"<Samples: {len(self)}, values from {least:g} to {greatest:g}>"
@@ -161,13 +161,24 @@ class Samples:
             finally:
                 self._is_in_call = False
 
+    @contextlib.contextmanager
+    def _in_call(self, threads: Optional[int]) -> Iterator[Optional[int]]:
+        """Exclusive access to an extractor with samples, for at most so many threads, or the samples' own number. Lasts
+        until the result is complete, so that no other call changes what it is made of. Yields the number."""
+        threads = self._threads if threads is None else threads
+        most_threads = thread_count(threads)
+        with self._exclusive():
+            self._require_samples()
+            _library.run(_library.set_extractor_threads, self._extractor, most_threads)
+            yield threads
+
     def _load(self, values: Any, masked: Optional[np.ndarray], are_float: bool = True,
               **callbacks: Any) -> None:
         if self._count == 0:
             raise ValueError("There are no samples: the input has no points.")
         numbers = None if values is None else readable("values", as_numpy(values))
         with self._exclusive():
-            self._is_loaded, self._held = False, None
+            self._is_loaded, self._held, self._range = False, None, (np.nan, np.nan)
             self._values, self._masked = values, masked
             _library.run(_library.set_extractor_threads, self._extractor, thread_count(self._threads))
             self._hold(1, numbers, [self._excluded, masked], callbacks)
@@ -208,8 +219,7 @@ class Samples:
 
     def _require_samples(self) -> None:
         if not self._is_loaded:
-            raise ValueError("The samples have no values, since replacing them failed or was interrupted, or"
-                             " keep_tree was False: call replace_values().")
+            raise ValueError("The samples were freed: call replace_values() or make new Samples.")
 
     def _current(self, name: str, array: Any) -> np.ndarray:
         """The current array of the samples: those of data sets may have been reallocated."""
@@ -255,31 +265,26 @@ class Samples:
         sign = direction_sign(options.get("gradient_direction", "descent"))
         levels = levels_of("isovalues", isovalues)
         of_samples = further_arrays(arrays, len(self)) if self._arrays is None else self._arrays
-        threads = self._threads if threads is None else threads
-        most_threads = thread_count(threads)
-        with self._exclusive():
-            self._require_samples()
+        with self._in_call(threads) as threads:
             if self._values is None:
                 raise ValueError("The samples were made without values: call replace_values().")
-            _library.run(_library.set_extractor_threads, self._extractor, most_threads)
             self._hold_values({**callbacks, "progress": None}, sign)
             surface = self._surface([sign * level for level in levels], chosen, callbacks)
-            value_type, masked = self._value_type, self._masked
-        messages = []
-        if masked is not None:
-            messages.append(_library.Message(
-                describe_masked(masked), is_warning=False, cause="masked values"))
-        if self._without_array:
-            messages.append(_datasets.describe_without_array(self._without_array, self._name))
-        found = self._interpolated(surface, of_samples, callbacks.get("is_canceled"))
-        if options.get("compute_scalars", True):
-            name = self._maker.scalars or "values"
-            if name in found:
+            messages = []
+            if self._masked is not None:
                 messages.append(_library.Message(
-                    f'The isovalues replace the array "{name}" of the data set: rename that.',
-                    is_warning=True, cause=f"isovalues replace {name}"))
-            contoured = self._contoured(surface, chosen, sign, callbacks.get("is_canceled"))
-            found[name] = contoured.astype(value_type, copy=False)
+                    describe_masked(self._masked), is_warning=False, cause="masked values"))
+            if self._without_array:
+                messages.append(_datasets.describe_without_array(self._without_array, self._name))
+            found = self._interpolated(surface, of_samples, callbacks.get("is_canceled"))
+            if options.get("compute_scalars", True):
+                name = self._maker.scalars or "values"
+                if name in found:
+                    messages.append(_library.Message(
+                        f'The isovalues replace the array "{name}" of the data set: rename that.',
+                        is_warning=True, cause=f"isovalues replace {name}"))
+                contoured = self._contoured(surface, chosen, sign, callbacks.get("is_canceled"))
+                found[name] = contoured.astype(self._value_type, copy=False)
         computed = _computed(surface, chosen, sign)
         messages += [_library.Message(
             f'The computed array "{name}" replaces the input array of this name. To keep that, rename'
@@ -356,6 +361,12 @@ class Samples:
         """
         return self._probe(places, arrays, gradient, method, outside, threads, progress, stacklevel=3)
 
+    def gradient(
+        self, *, arrays: Any = None, method: str = "blend", threads: Optional[int] = None, progress: Progress = None
+    ) -> Any:
+        """Gradients at the samples themselves: :func:`gradient` describes them. Parameters are those of :meth:`probe`."""
+        return self._gradient(arrays, method, threads, progress, stacklevel=3)
+
     def interpolator(
         self,
         array: Any = None,
@@ -374,7 +385,7 @@ class Samples:
         return Interpolator(self, array, dict(method=method, outside=outside, threads=threads))
 
     def _gradient(self, arrays, method, threads, progress, stacklevel) -> Any:
-        """Gradients at the samples themselves."""
+        """gradient()."""
         places = self._current("positions", self._positions)
         return self._probe(places, arrays, True, method, math.nan, threads, progress, stacklevel + 1)[1]
 
@@ -385,13 +396,13 @@ class Samples:
         if with_gradients and is_nearest:
             raise ValueError('the method "nearest" has no gradients: use another one')
         many = by_name(arrays)
-        numbers = {name: self._numbers_of(array, name) for name, array in many.items()}
         points = _datasets.places_of(places)
-        with shown_progress(progress, "Probing") as report:
-            values, gradients, kinds = self._probed(points, numbers, chosen, with_gradients, threads, report)
-        texts = [*self._describe_left_out(), *_describe_flat(kinds)]
-        for name, array in many.items() if seeks_gaps else ():
-            texts += self._describe_gaps(name, array, numbers[name])
+        with shown_progress(progress, "Probing") as report, self._in_call(threads):
+            numbers = {name: self._numbers_of(array, name) for name, array in many.items()}
+            values, gradients, kinds = self._probed(points, numbers, chosen, with_gradients, report)
+            texts = [*self._describe_left_out(), *_describe_flat(kinds)]
+            for name, array in many.items() if seeks_gaps else ():
+                texts += self._describe_gaps(name, array, numbers[name])
         for text in texts:
             warnings.warn(text, RuntimeWarning, stacklevel=stacklevel)
         if not (isinstance(arrays, Mapping) or are_names(arrays)):
@@ -399,9 +410,9 @@ class Samples:
         return (values, gradients) if with_gradients else values
 
     def _probed(self, points: np.ndarray, numbers: Mapping[str, np.ndarray], options: _library.ProbeOptions,
-                with_gradients: bool, threads: Optional[int], report: Any, leaves_out: bool = True
-                ) -> tuple[dict, dict, np.ndarray]:
-        """Values, gradients and kinds of places, without samples that lack a value if these are to be left out."""
+                with_gradients: bool, report: Any, leaves_out: bool = True) -> tuple[dict, dict, np.ndarray]:
+        """Values, gradients and kinds of places, without samples that lack a value if these are to be left out. Within
+        _in_call()."""
         is_nearest = options.method == CONSTANTS["method"]["nearest"]
         values, gradients = {}, {}
         for name, array in numbers.items():
@@ -409,16 +420,12 @@ class Samples:
             values[name] = np.empty(shape, array.dtype if is_nearest else np.float64)
             gradients[name] = np.empty((*shape, 3)) if with_gradients else None
         kinds = np.empty(len(points), np.uint8)
-        most_threads = thread_count(self._threads if threads is None else threads)
-        with self._exclusive():
-            self._require_samples()
-            _library.run(_library.set_extractor_threads, self._extractor, most_threads)
-            if leaves_out and self._skipped > 0:
-                self._hold_values({})
-            _library.run_with(
-                _library.Callbacks(report), self._extractor, _library.probe, points,
-                [array.reshape(len(array), -1) for array in numbers.values()], len(numbers), byref(options),
-                list(zip(values.values(), gradients.values())), kinds, kinds.nbytes)
+        if leaves_out and self._skipped > 0:
+            self._hold_values({})
+        _library.run_with(
+            _library.Callbacks(report), self._extractor, _library.probe, points,
+            [array.reshape(len(array), -1) for array in numbers.values()], len(numbers), byref(options),
+            list(zip(values.values(), gradients.values())), kinds, kinds.nbytes)
         return values, gradients, kinds
 
     def _describe_left_out(self) -> Iterator[str]:

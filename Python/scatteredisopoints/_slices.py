@@ -14,7 +14,7 @@ from . import _datasets, _library
 from ._arrays import as_numpy, levels_of, readable
 from ._cuts import Cut, Normal, make_cut, rounded, shares_to_zero
 from ._isosurface import Isosurface, describe_not_finite
-from ._options import INTERPOLATIONS, make_probe_options, make_slice_options, named, thread_count
+from ._options import INTERPOLATIONS, make_probe_options, make_slice_options, named
 from ._progress import Progress, part, shown_progress
 
 if TYPE_CHECKING:
@@ -31,9 +31,8 @@ def sliced(samples: Samples, normal: Optional[Normal], origin: Any, arrays: Any,
     if any(map(math.isnan, levels)):
         raise ValueError("An offset is not a number. Choose numbers as offsets.")
     chosen = make_slice_options(options)
-    of_samples = samples._arrays_of(arrays)
     with shown_progress(progress, "Slicing") as report:
-        made, messages = make_slice(samples, cut, levels, chosen, of_samples, method, threads, report)
+        made, messages = make_slice(samples, cut, levels, chosen, arrays, method, threads, report)
     warn_of(samples, made, messages, arrays is None, stacklevel + 1)
     return made
 
@@ -48,23 +47,21 @@ def warn_of(samples: Samples, isosurface: Isosurface, messages: list[_library.Me
         warnings.warn(text, RuntimeWarning, stacklevel=stacklevel)
 
 
-def make_slice(samples: Samples, cut: Cut, levels: list[float], options: _library.Options,
-               of_samples: Mapping[str, Any], method: Optional[str], threads: Optional[int], report: Any
+def make_slice(samples: Samples, cut: Cut, levels: list[float], options: _library.Options, arrays: Any,
+               method: Optional[str], threads: Optional[int], report: Any
                ) -> tuple[Isosurface, list[_library.Message]]:
-    """A slice at levels of a function, with arrays by name, and messages. Calls `report` with the share done."""
-    threads = samples._threads if threads is None else threads
-    most_threads = thread_count(threads)
-    with samples._exclusive():
-        samples._require_samples()
-        _library.run(_library.set_extractor_threads, samples._extractor, most_threads)
+    """A slice at levels of a function, with arrays as of Samples.slice(), and messages. Calls `report` with the share
+    done."""
+    with samples._in_call(threads) as threads:
+        of_samples = samples._arrays_of(arrays)
         at_samples = _hold_cut(samples, cut, part(report, 0.0, 0.3))
         surface = samples._surface(levels, options, {"progress": part(report, 0.3, 0.6)})
-    points = _library.view(surface, _library.POINTS)
-    found = samples._interpolated(surface, of_samples, None)
-    if cut.normal is None and at_samples is not None and len(points):
-        points = _moved_onto(samples, cut, at_samples, surface, points, of_samples, found)
-    if method is not None and len(points):
-        _fit(samples, points, of_samples, found, method, threads, part(report, 0.6, 1.0))
+        points = _library.view(surface, _library.POINTS)
+        found = samples._interpolated(surface, of_samples, None)
+        if cut.normal is None and at_samples is not None and len(points):
+            points = _moved_onto(samples, cut, at_samples, surface, points, of_samples, found)
+        if method is not None and len(points):
+            _fit(samples, points, of_samples, found, method, part(report, 0.6, 1.0))
     made = Isosurface(points, triangles=_library.view(surface, _library.TRIANGLES), arrays=found,
                       make_polydata=replace(samples._maker, normals=None), threads=threads)
     return made, _library.messages(surface)
@@ -119,13 +116,12 @@ def _moved_onto(samples: Samples, cut: Cut, at_samples: np.ndarray, surface: _li
 
 
 def _fit(samples: Samples, points: np.ndarray, of_samples: Mapping[str, Any], found: dict[str, np.ndarray],
-         method: str, threads: Optional[int], report: Any) -> None:
+         method: str, report: Any) -> None:
     """Replaces arrays at points by those of a method of probe(), where it has values. Fits extrapolate at rims: edges
     of slivers on the convex hull are far too long for linear interpolation."""
     fitted = {name: samples._numbers_of(array, name) for name, array in of_samples.items()
               if samples._maker.uses.get(name) != _datasets.PEDIGREE_IDS}
-    values, _, _ = samples._probed(points, fitted, make_probe_options(method, None), False, threads, report,
-                                   leaves_out=False)
+    values, _, _ = samples._probed(points, fitted, make_probe_options(method, None), False, report, leaves_out=False)
     for name, numbers in values.items():
         dtype = found[name].dtype
         exact = numbers if numbers.dtype == dtype else rounded(numbers, dtype)

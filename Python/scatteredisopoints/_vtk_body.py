@@ -27,7 +27,7 @@ class vtkScatteredBodyFilter(ScatteredAlgorithm):
     def _compute(self, data: Any, output: Any) -> list[_library.Message]:
         samples = self._all_samples(data)
         options = {name: self._values[property_name(name)] for name in (*OPTIONS, "keep_tree")}
-        made, messages = make_body(samples, options, samples._arrays_of(None), None, part(self._advance, LOADED, 1.0))
+        made, messages = make_body(samples, options, None, None, part(self._advance, LOADED, 1.0))
         output.ShallowCopy(made.polydata)
         self._count_samples(samples)
         self._counts["ExtractedPoints"] = len(made)

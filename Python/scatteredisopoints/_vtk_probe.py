@@ -36,7 +36,8 @@ class Probing(ScatteredAlgorithm):
                with_gradients: bool) -> tuple[dict, dict, np.ndarray]:
         """Values, gradients, and kinds of places."""
         options = make_probe_options(self._values["Interpolation"], outside)
-        return samples._probed(places, numbers, options, with_gradients, None, part(self._advance, LOADED, 1.0))
+        with samples._in_call(None):
+            return samples._probed(places, numbers, options, with_gradients, part(self._advance, LOADED, 1.0))
 
     def _describe_flat(self, kinds: np.ndarray, consequence: str) -> list[_library.Message]:
         flat = np.count_nonzero(kinds & _library.PLACE_FLAT)

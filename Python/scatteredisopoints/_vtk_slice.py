@@ -54,7 +54,7 @@ class vtkScatteredSliceFilter(ContourValues, ScatteredAlgorithm):
         levels = [level + value for value in self.GetValues()]
         options = make_slice_options({name: self._values[property_name(name)] for name in SliceOptions.__annotations__})
         options.keep_tetrahedra = self._values["KeepTree"]
-        made, messages = make_slice(samples, cut, levels, options, samples._arrays_of(None),
+        made, messages = make_slice(samples, cut, levels, options, None,
                                     [*INTERPOLATIONS.values()][self._values["Interpolation"]], None,
                                     part(self._advance, LOADED, 1.0))
         output.ShallowCopy(made.polydata)

@@ -441,7 +441,8 @@ class KeptTrees(unittest.TestCase):
     def test_samples_take_the_parameters_of_functions(self):
         for function, method, more in (
                 (contour, Samples.contour, ()), (scatteredisopoints.body, Samples.body, ()),
-                (scatteredisopoints.slice_samples, Samples.slice, ()), (probe, Samples.probe, ("arrays",))):
+                (scatteredisopoints.slice_samples, Samples.slice, ()), (probe, Samples.probe, ("arrays",)),
+                (gradient, Samples.gradient, ("arrays",))):
             parameters, of_samples = ([name for name in inspect.signature(each).parameters if name not in left_out]
                                       for each, left_out in ((function, ("positions", "values")), (method, more)))
             self.assertEqual(of_samples, ["self", *parameters])
@@ -457,10 +458,10 @@ class KeptTrees(unittest.TestCase):
         tree = weakref.ref(samples._extractor)
         surface = samples.contour(0.3, keep_tree=False)
         self.assertIsNone(tree())
-        self.assertEqual((samples.range, samples.skipped), ((values.min(), values.max()), 0))
-        self.assertRegex(repr(samples), "freed")
-        with self.assertRaisesRegex(ValueError, "keep_tree was False: call replace_values"):
-            samples.contour(0.3)
+        self.assertEqual((np.isnan(samples.range).all(), repr(samples)), (True, "<Samples: 5000, freed>"))
+        for call in (lambda: samples.contour(0.3), samples.body, samples.slice, samples.gradient):
+            with self.assertRaisesRegex(ValueError, r"samples were freed: call replace_values\(\) or make new Samples"):
+                call()
         samples.replace_values(values)
         self.assertEqual(contents(samples.contour(0.3)), contents(surface))
 
@@ -484,6 +485,7 @@ class KeptTrees(unittest.TestCase):
 
         with self.assertRaises(InterruptedError):
             samples.replace_values(2 * values, progress=fail)
+        self.assertEqual((np.isnan(samples.range).all(), repr(samples)), (True, "<Samples: 100000, freed>"))
         with self.assertRaisesRegex(ValueError, "call replace_values"):
             samples.contour(0.3)
         samples.replace_values(values)
@@ -514,6 +516,39 @@ class KeptTrees(unittest.TestCase):
 
         run_together(lambda: extract(0), lambda: extract(1))
         self.assertEqual(found, expected)
+
+    @staticmethod
+    def with_call_meanwhile(samples, call, other):
+        """The result of a call during which another thread begins another one, while arrays are interpolated."""
+        samples._lock = lock = AnnouncedLock()
+
+        def work():
+            try:
+                other(samples)
+            finally:
+                lock.reached.set()
+
+        def begin_other(*arguments):
+            del samples._interpolated
+            thread.start()
+            lock.reached.wait()
+            return samples._interpolated(*arguments)
+
+        thread, samples._interpolated = threading.Thread(target=work), begin_other
+        result = call(samples)
+        thread.join()
+        return result
+
+    def test_calls_take_turns(self):
+        positions, values = cloud()
+        lacking = np.where(positions[:, 0] < 0.5, np.nan, values)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            for call, other in (
+                    (lambda of: of.contour(0.4, triangles=True, capping=True), lambda of: of.replace_values(2 * lacking)),
+                    (lambda of: of.slice("z", arrays=values), lambda of: of.contour(0.3))):
+                expected = contents(call(Samples(positions, lacking)))
+                self.assertEqual(contents(self.with_call_meanwhile(Samples(positions, lacking), call, other)), expected)
 
     def test_memory_is_given_back(self):
         statm = pathlib.Path("/proc/self/statm")
@@ -780,6 +815,21 @@ class Imports(unittest.TestCase):
             with self.assertRaisesRegex(AttributeError, text):
                 getattr(scatteredisopoints, name)
             self.assertFalse(hasattr(scatteredisopoints, name))
+
+
+class AnnouncedLock:
+    """A lock that sets an event when a thread has to wait for it."""
+
+    def __init__(self):
+        self._lock, self.reached = threading.RLock(), threading.Event()
+
+    def __enter__(self):
+        if not self._lock.acquire(blocking=False):
+            self.reached.set()
+            self._lock.acquire()
+
+    def __exit__(self, *_):
+        self._lock.release()
 
 
 def run_together(*functions):

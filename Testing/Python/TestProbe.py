@@ -166,10 +166,11 @@ class KeptSamples(unittest.TestCase):
         samples.replace_values(values)
         for _ in range(2):
             np.testing.assert_array_equal(samples.probe(PLACES), expected)
+            np.testing.assert_array_equal(samples.gradient(), gradient(POSITIONS, values))
             self.assertEqual(samples.contour(0.5).points.tobytes(), surface.points.tobytes())
         samples.contour(0.5, keep_tree=False)
         for arrays in (None, values):
-            with self.assertRaisesRegex(ValueError, "keep_tree was False: call replace_values"):
+            with self.assertRaisesRegex(ValueError, "were freed: call replace_values"):
                 samples.probe(PLACES, arrays=arrays)
 
     def test_interpolators(self):

@@ -152,6 +152,21 @@ class Accessor(unittest.TestCase):
         blocks.SetBlock(0, moved)
         self.assertGreater(blocks.scattered.contour([0.3], "distance").center[2], 5)
 
+    def test_calls_meanwhile(self):
+        """A call on another array, as of another thread, leaves a call its array."""
+        data = cloud()
+        data["doubled"] = 2 * data["distance"]
+        expected = data.scattered.contour([0.3], "distance")
+        extract = Samples._extract
+
+        def meanwhile(*arguments, **options):
+            with mock.patch.object(Samples, "_extract", extract):
+                data.scattered.contour([0.4], "doubled")
+            return extract(*arguments, **options)
+
+        with mock.patch.object(Samples, "_extract", meanwhile):
+            np.testing.assert_array_equal(data.scattered.contour([0.3], "distance").points, expected.points)
+
     def samples_of(self, data, isovalue=0.3):
         data.scattered.contour([isovalue])
         return next(reversed(_pyvista._kept.values()))[2]
