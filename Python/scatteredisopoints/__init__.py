@@ -4,8 +4,8 @@
 contour() takes and returns NumPy arrays, or data sets of VTK and PyVista; body() gives the closed surface of all
 samples, slice_samples() gives slices, and probe() and gradient() interpolate samples at places; Samples keeps the tree
 between calls. All only need NumPy.
-With the project's VTK modules, the package also has their classes; with its ParaView plugin, load_plugin() and
-ray_trace().
+load_plugin() serves scripts of ParaView. With the project's VTK modules, the package also has their classes and, if
+these were built with Embree, ray_trace().
 """
 
 from __future__ import annotations

@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import importlib
+import os
+from numbers import Number
 from typing import Any, Iterable, Mapping, Optional, Union
 
 import numpy as np
@@ -76,6 +78,9 @@ def readable(name: str, array: Any) -> np.ndarray:
 
 def positions_of(array: Any, name: str = "positions") -> np.ndarray:
     """Positions with shape (n, 3), float32 or float64."""
+    if isinstance(array, (str, os.PathLike)):
+        raise TypeError(f"{name} cannot be the file {os.fspath(array)}: read the file first, or use"
+                        " python -m scatteredisopoints")
     result = readable(name, array)
     if result.ndim != 2 or result.shape[1] != 3:
         remedy = (f"pass {name}.T" if result.ndim == 2 and len(result) == 3 else
@@ -164,8 +169,11 @@ def levels_of(name: str, given: Union[float, Iterable[float], None]) -> list[flo
     elif hasattr(given, "__iter__") and not isinstance(given, np.ndarray):
         given = list(given)
     values = np.atleast_1d(np.asarray(given))
-    if values.dtype == object and all(isinstance(value, int) for value in values.ravel()):
-        raise ValueError(f"{name} are beyond the range of float64")
+    if values.dtype == object and all(isinstance(value, Number) for value in values.ravel()):  # such as great integers
+        try:
+            values = np.array([float(value) for value in values.ravel()])
+        except OverflowError:
+            raise ValueError(f"{name} are beyond the range of float64") from None
     if values.size and values.dtype.kind not in "fiu":
         raise TypeError(f"{name} are of the type {values.dtype}, not numbers")
     return values.ravel().astype(np.float64).tolist()

@@ -110,35 +110,38 @@ def places_of(given: argparse.Namespace, positions: np.ndarray) -> tuple[np.ndar
     return np.array(given.at), {}
 
 
-def numbers(count: Optional[int] = None, kind: Any = float) -> Callable[[str], list]:
-    """The type of an argument of so many numbers between commas, or of any number of them."""
-    def parse(text: str) -> list:
-        found = [kind(each) for each in text.split(",")]
-        if count not in (None, len(found)):
-            raise argparse.ArgumentTypeError(f"{text.strip()} is not {count} numbers between commas")
-        return found
+def argument(convert: Callable[[str], Any], remedy: str) -> Callable[[str], Any]:
+    """The type of an argument that a function converts; the remedy is for where it raises ValueError."""
+    def parse(text: str) -> Any:
+        text = text.strip().lower()
+        try:
+            return convert(text)
+        except ValueError:
+            raise argparse.ArgumentTypeError(f"{text}: give {remedy}") from None
 
-    parse.__name__ = kind.__name__
     return parse
 
 
-def direction(text: str) -> Any:
-    """The type of a direction."""
-    text = text.strip().lower()
-    return text if text in ("x", "y", "z", "-x", "-y", "-z") else numbers(3)(text)
-
-
-def positive_integer(text: str) -> int:
-    """The type of a number of threads or points."""
+def to_positive(text: str) -> int:
     if int(text) < 1:
         raise ValueError
     return int(text)
 
 
-def outside(text: str) -> Any:
-    """The type of what places outside get."""
-    text = text.lower()
-    return {"fit": None, "nearest": text}[text] if text in ("fit", "nearest") else float(text)
+def to_three(text: str, kind: Any = float) -> list:
+    x, y, z = map(kind, text.split(","))
+    return [x, y, z]
+
+
+NUMBER = argument(float, "a number")
+NUMBERS = argument(lambda text: [float(each) for each in text.split(",")], "numbers between commas")
+PLACE = argument(to_three, "three numbers between commas, such as 0,0,0.5")
+COUNT = argument(to_positive, "a whole number, 1 or more")
+COUNTS = argument(lambda text: to_three(text, to_positive), "three whole numbers between commas, 1 or more")
+DIRECTION = argument(lambda text: text if text in ("x", "y", "z", "-x", "-y", "-z") else to_three(text),
+                     "x, y, z, -x, -y, -z, or three numbers such as 1,1,0")
+OUTSIDE = argument(lambda text: {"fit": None, "nearest": text}[text] if text in ("fit", "nearest") else float(text),
+                   "a number, nearest or fit")
 
 
 def option(text: str) -> tuple[str, Any]:
@@ -162,7 +165,7 @@ def add_command(commands: Any, name: str, function: Any, summary: str, out: str,
     added.add_argument("-o", dest="out", metavar="OUT", help=f"default: {out}")
     added.add_argument("--columns", metavar="X,Y,Z", type=lambda text: text.split(","),
                        help="the columns of a table that are coordinates")
-    added.add_argument("--threads", metavar="N", type=positive_integer, help="default: all cores")
+    added.add_argument("--threads", metavar="N", type=COUNT, help="default: all cores")
     if name != "contour":
         added.set_defaults(points=name == "probe")
         added.add_argument("arrays", metavar="ARRAY", nargs="*", help="default: all")
@@ -184,30 +187,30 @@ def make_parsers() -> tuple[argparse.ArgumentParser, dict[str, argparse.Argument
                     "samples.csv temperature 300 350", "flow.vtu velocity:magnitude 0.5 -o surface.stl",
                     "samples.npy value -1e-3 --points --option projection=crease_fit")
     added.add_argument("array", metavar="ARRAY")
-    added.add_argument("isovalues", metavar="ISOVALUE", nargs="+", type=float)
+    added.add_argument("isovalues", metavar="ISOVALUE", nargs="+", type=NUMBER)
     added.add_argument("--points", action="store_true", help="points with normals and radii instead of triangles")
     added.add_argument("--capping", action="store_true", help="close the body of the samples at or above ISOVALUE")
     command("body", body, "The closed surface of all samples.", beside.format("body"), "particles.ply -o body.stl",
             "particles.csv density --option minimum_piece_size=0.01")
     added = command("slice", sliced, "Slices by planes.", beside.format("slice"), "samples.csv --normal z",
                     "flow.vtu velocity pressure --normal 1,1,0 --origin 0,0,0.5 --offsets -0.1,0,0.1 -o slices.stl")
-    added.add_argument("--normal", type=direction, default="x", help="x, y, z, -x, -y, -z, or numbers such as 1,1,0")
-    added.add_argument("--origin", type=numbers(3), metavar="X,Y,Z", help="default: the center of the bounds")
-    added.add_argument("--offsets", type=numbers(), default=[0.0], metavar="D,...", help="distances along the normal")
+    added.add_argument("--normal", type=DIRECTION, default="x", help="x, y, z, -x, -y, -z, or numbers such as 1,1,0")
+    added.add_argument("--origin", type=PLACE, metavar="X,Y,Z", help="default: the center of the bounds")
+    added.add_argument("--offsets", type=NUMBERS, default=[0.0], metavar="D,...", help="distances along the normal")
     added.add_argument("--interpolation", type=str.lower, choices=tuple(INTERPOLATIONS), default="fits")
     added = command("probe", probed, "Values at places.", "CSV to stdout", "samples.csv temperature --at 0,0,0.5",
                     "flow.vtu velocity --line 0,0,0 1,0,0 --resolution 100 -o line.csv",
                     "samples.npz --grid 50,50,50 --gradient -o grid.npz")
     places = added.add_mutually_exclusive_group(required=True)
-    places.add_argument("--at", action="append", type=numbers(3), metavar="X,Y,Z", help="a place; may be repeated")
+    places.add_argument("--at", action="append", type=PLACE, metavar="X,Y,Z", help="a place; may be repeated")
     places.add_argument("--places", metavar="FILE", help="a file of places")
-    places.add_argument("--line", nargs=2, type=numbers(3), metavar="X,Y,Z")
-    places.add_argument("--grid", type=numbers(3, positive_integer), metavar="NX,NY,NZ",
+    places.add_argument("--line", nargs=2, type=PLACE, metavar="X,Y,Z")
+    places.add_argument("--grid", type=COUNTS, metavar="NX,NY,NZ",
                         help="so many points along the axes of the bounds")
-    added.add_argument("--resolution", type=positive_integer, metavar="N", default=1000, help="pieces of the line")
+    added.add_argument("--resolution", type=COUNT, metavar="N", default=1000, help="pieces of the line")
     added.add_argument("--gradient", action="store_true", help="gradients, too")
     added.add_argument("--method", type=str.lower, choices=tuple(CONSTANTS["method"]), default="blend")
-    added.add_argument("--outside", type=outside, metavar="VALUE", default=math.nan,
+    added.add_argument("--outside", type=OUTSIDE, metavar="VALUE", default=math.nan,
                        help="for places outside: a number, nearest or fit; default: nan")
     commands.add_parser("paraview", help="Ways to load the filters into ParaView.")
     return parser, commands.choices

@@ -100,14 +100,14 @@ class Isosurface:
 
     def to_pyvista(self) -> Any:
         """A pyvista.PolyData that shares the arrays' memory. Raises ImportError if PyVista is not installed."""
-        return importlib.import_module("pyvista").wrap(self.polydata)
+        return _imported("pyvista").wrap(self.polydata)
 
     def to_trimesh(self) -> Any:
         """A trimesh.Trimesh of the triangles as they are, without arrays. Raises ImportError if trimesh is not
         installed, ValueError for points."""
         if self.triangles is None:
             raise ValueError("Points are no mesh: extract triangles.")
-        return importlib.import_module("trimesh").Trimesh(self.points, self.triangles, process=False)
+        return _imported("trimesh").Trimesh(self.points, self.triangles, process=False)
 
     def save(self, path: Union[str, os.PathLike[str]]) -> None:
         """Writes a file, with all arrays of points that its format can hold. If this fails, an earlier one stays.
@@ -228,6 +228,13 @@ class Isosurface:
         if self.triangles is not None:
             shown += f", {len(self.triangles)} triangles"
         return f"<Isosurface: {shown}; arrays: {', '.join(self.arrays) or 'none'}>"
+
+
+def _imported(package: str) -> Any:
+    try:
+        return importlib.import_module(package)
+    except ImportError as error:
+        raise ImportError(f"{error}: pip install {package}") from None
 
 
 def _at_vertices(surface: _library.Surface, array: np.ndarray, point_of_vertex, is_canceled) -> np.ndarray:

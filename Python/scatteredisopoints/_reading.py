@@ -84,9 +84,12 @@ def _part(name: str, array: np.ndarray, part: str) -> np.ndarray:
 
 def _positions(path: str, table: dict[str, Any], columns: Optional[Sequence[str]]) -> np.ndarray:
     """Takes the positions out of a table."""
-    names = {re.sub(r" *[([].*", "", name.lower()): name for name in table}  # without units
-    usual = ([names[name] for name in each] for each in _POSITIONS if names.keys() >= set(each))
-    wanted = columns or next(usual, ["x"])
+    names = [re.sub(r" *[([].*", "", name.lower()) for name in table]  # without units
+    usual = next((each for each in _POSITIONS if {*names} >= {*each}), ("x",))
+    for name in (name for name in usual if names.count(name) > 1 and not columns):
+        raise ValueError(f'{path} has several columns for "{name}": give the coordinates by --columns; there are'
+                         f' {", ".join(table)}')
+    wanted = columns or [dict(zip(names, table)).get(name, name) for name in usual]
     for name in (name for name in wanted if name not in table):
         raise ValueError(f'{path} has no "{name}": give the coordinates by --columns; there are {", ".join(table)}')
     arrays = [table.pop(name) for name in wanted]
@@ -152,7 +155,9 @@ def _read_text(file: TextIO) -> dict[str, Any]:
         head.append(file.readline())
         if not head[-1]:
             raise ValueError("it is empty")
-    delimiter = next((each for each in "\t;," if each in re.sub('"[^"]*"', "", head[-1])), " ")
+    line = re.sub('"[^"]*"', "", head[-1])
+    are_decimal = re.fullmatch(r"\s*([-+]?\d*,?\d+(e[-+]?\d+)?\s+){2,}", line.lower() + " ")
+    delimiter = " " if are_decimal else next((each for each in "\t;," if each in line), " ")
 
     def rows_of(lines: Any) -> Any:
         tidy = ("" if line.startswith("#") else " ".join(line.split()) if delimiter == " " else line for line in lines)

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files of isosurfaces: see writer_for() and write_file()."""
+"""Files of isosurfaces: see writer_for(), write_file() and file_to_write()."""
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import errno
 import importlib.util
@@ -41,13 +42,23 @@ def writer_for(path: str, are_triangles: bool) -> Writer:
 
 def write_file(write: Writer, path: str, surface: Isosurface) -> None:
     """Writes a file. If this fails, an earlier one stays as it was."""
+    with file_to_write(path) as target:
+        write(target, surface)
+
+
+@contextlib.contextmanager
+def file_to_write(path: str) -> Iterator[str]:
+    """The name of a file that takes the place of another one, unless what writes it fails. Raises OSError at once if it
+    cannot be written."""
     path = os.path.realpath(path)
     if not os.path.isdir(os.path.dirname(path)):
         raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), path)
     is_device = os.path.exists(path) and not os.path.isfile(path)
     target = path if is_device else f"{path}.part{Path(path).suffix}"
     try:
-        write(target, surface)
+        if not is_device:
+            open(target, "wb").close()
+        yield target
         os.replace(target, path)
     finally:
         if target != path and os.path.exists(target):

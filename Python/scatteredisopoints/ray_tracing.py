@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
+import os
 import re
-from typing import Any, Optional
+from typing import Any, Mapping, Optional, Union
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -14,12 +15,13 @@ from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from ._options import property_name
+from ._writing import file_to_write
 from .vtkScatteredIsopointRayTracing import vtkIsopointRayTracer
 
 
 def ray_trace(
     view: Any,
-    path: Optional[str] = None,
+    path: Union[str, os.PathLike[str], None] = None,
     *,
     samples: int = 64,
     size: Optional[tuple[int, int]] = None,
@@ -52,11 +54,25 @@ def ray_trace(
     RuntimeError
         With the ray tracer's message, if it reports an error.
     OSError
-        If the file cannot be written.
+        If the file cannot be written. An earlier one stays after any error.
     """
-    if path is not None:
-        with open(path, "wb"):
-            pass  # fail before tracing rather than after
+    if path is None:
+        image = _traced(view, samples, size, options)
+    else:
+        with file_to_write(os.fspath(path)) as target:
+            image = _traced(view, samples, size, options)
+            writer = vtkPNGWriter()
+            writer.SetFileName(target)
+            writer.SetInputData(image)
+            writer.Write()
+            if writer.GetErrorCode():
+                raise OSError(f"{path} cannot be written: is the disk full?")
+    columns, rows, _ = image.GetDimensions()
+    pixels = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(rows, columns, 3)
+    return pixels[::-1].copy()
+
+
+def _traced(view: Any, samples: int, size: Optional[tuple[int, int]], options: Mapping[str, Any]) -> vtkImageData:
     tracer = vtkIsopointRayTracer()
     tracer.SetSamplesPerPixel(samples)
     for name, value in options.items():
@@ -74,16 +90,7 @@ def ray_trace(
     image = vtkImageData()
     if not tracer.RenderToImage(_renderer_of(view), *(size or (0, 0)), image):
         raise RuntimeError("\n".join(messages) or "aborted")
-    if path is not None:
-        writer = vtkPNGWriter()
-        writer.SetFileName(path)
-        writer.SetInputData(image)
-        writer.Write()
-        if writer.GetErrorCode():
-            raise OSError(f"{path} cannot be written: is the disk full?")
-    columns, rows, _ = image.GetDimensions()
-    pixels = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(rows, columns, 3)
-    return pixels[::-1].copy()
+    return image
 
 
 def _renderer_of(view: Any) -> vtkRenderer:

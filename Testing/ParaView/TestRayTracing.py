@@ -70,6 +70,7 @@ def rejects_what_it_cannot_trace():
     for arguments, options, expected in (
             ((simple.Sphere(),), {}, TypeError), ((VIEW,), {"softness": 1.0}, TypeError),
             ((VIEW,), {"size": (100_000, 1)}, RuntimeError),
+            ((VIEW, path_of("small.png")), {"size": (100_000, 1)}, RuntimeError),
             ((VIEW, "/no/such/folder/a.png"), {"samples": 1}, OSError)):
         try:
             ray_trace(*arguments, **options)
@@ -77,6 +78,7 @@ def rejects_what_it_cannot_trace():
             check(str(error), "it says why")
         else:
             check(False, f"{options} is accepted")
+    check(read_image(path_of("small.png")).shape == (60, 80, 3), "an earlier picture stays")
 
 
 load(sys.argv[1])

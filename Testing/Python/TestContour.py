@@ -4,6 +4,8 @@
 import pickle
 import unittest
 import warnings
+from decimal import Decimal
+from fractions import Fraction
 
 import numpy as np
 import scatteredisopoints
@@ -327,15 +329,18 @@ class ContourTest(unittest.TestCase):
         positions, values = samples()
         data = cloud_of(positions, values)
         for isovalues, expected in (((x for x in (0.3, 0.2)), (0.2, 0.3)), ({0.2, 0.3}, (0.2, 0.3)),
-                                    (np.float32([0.25]), (0.25,)),
+                                    (np.float32([0.25]), (0.25,)), ([Fraction(1, 4), Decimal("0.3")], (0.25, 0.3)),
                                     (np.ma.masked_array([0.2, 0.3], [True, False]), (0.3,))):
             self.same(contour(positions, values, isovalues), data, expected)
         for arguments in ((positions, values), (data, None)):
             with self.assertWarnsRegex(RuntimeWarning, "No isosurface: there are no isovalues. Set one."):
                 self.assertEqual(len(contour(*arguments, range(1, 0))), 0)
-        for wrong in (True, [True, False], {0.3: 1}, "0.3", None):
+        for wrong in (True, [True, False], {0.3: 1}, "0.3", None, [2**64, None]):
             with self.assertRaisesRegex(TypeError, "isovalues are"):
                 contour(positions, values, wrong)
+        for great in (3 * 10**20, [3 * 10**20, 2.5e20]):
+            self.same(contour(positions, 1e21 * values, great), cloud_of(positions, 1e21 * values),
+                      np.atleast_1d(great).astype(float).tolist())
         with self.assertRaisesRegex(ValueError, "isovalues are beyond the range of float64"):
             contour(positions, values, 2**1100)
         for call in body, slice_samples:

@@ -204,6 +204,8 @@ class Arrays(unittest.TestCase):
                 ((positions, None), TypeError, "values.*missing"),
                 ((positions.tolist() + [[1.0]], values), (ValueError, TypeError), "^positions are (no array|of)"),
                 ((positions, "T"), TypeError, "^values are of the type <U1, not real numbers: names are strings"),
+                *(((name, "T"), TypeError, "^positions cannot be the file a.csv: read the file first, or use python -m")
+                  for name in ("a.csv", pathlib.Path("a.csv"))),
                 ((positions * 1j, values), TypeError, "positions.*complex128"),
                 ((positions, ["a"] * 100), TypeError, "values.*type"),
                 ((positions, np.full(100, None)), TypeError, "values.*object"),
@@ -411,6 +413,10 @@ class Results(unittest.TestCase):
         with mock.patch.dict(sys.modules, trimesh=mock.MagicMock()) as modules:
             self.assertIs(surface.to_trimesh(), modules["trimesh"].Trimesh.return_value)
             modules["trimesh"].Trimesh.assert_called_once_with(surface.points, surface.triangles, process=False)
+        with mock.patch.dict(sys.modules, trimesh=None, pyvista=None):
+            for method, name in ((surface.to_trimesh, "trimesh"), (surface.to_pyvista, "pyvista")):
+                with self.assertRaisesRegex(ImportError, f"{name}.*: pip install {name}$"):
+                    method()
         with self.assertRaisesRegex(ValueError, "Points are no mesh: extract triangles"):
             contour(*cloud(2000), 0.4).to_trimesh()
 
