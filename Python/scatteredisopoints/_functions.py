@@ -265,6 +265,14 @@ def gradient(
     """Gradients at the samples themselves, shape (n, 3) or (n, c, 3): :func:`probe` describes parameters and errors.
 
     A mapping of names to arrays gives a dict. Of a data set, the samples are the points or the cells with the array.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from scatteredisopoints import gradient
+    >>> positions = np.random.default_rng(1).random((2000, 3))
+    >>> bool(np.allclose(gradient(positions, positions @ [1, 2, 3]), [1, 2, 3]))
+    True
     """
     _require(values)
     with _loaded(positions, values, "Probing", threads, progress) as (samples, report):

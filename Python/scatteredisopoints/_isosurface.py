@@ -22,7 +22,17 @@ from ._progress import Progress, shown_progress
 
 class Isosurface:
     """Points on isosurfaces, or triangles between them, as :func:`contour` makes them: the constructor is private.
-    Arrays are views that keep their memory alive."""
+    Arrays are views that keep their memory alive.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from scatteredisopoints import contour
+    >>> positions = np.random.default_rng(1).random((20000, 3))
+    >>> sphere = contour(positions, np.linalg.norm(positions - 0.5, axis=1), 0.3, triangles=True)
+    >>> sphere.triangles.shape[1], sphere.normals.shape == sphere.points.shape, list(sphere.arrays)
+    (3, True, ['values', 'Normals'])
+    """
 
     points: np.ndarray
     """Positions in the unit of the input: shape (n, 3), of float32 or float64."""

@@ -61,6 +61,16 @@ class Samples:
         As in :func:`contour`. It is the default of the methods, too.
     progress
         As in :func:`contour`, for loading.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from scatteredisopoints import Samples
+    >>> positions = np.random.default_rng(1).random((20000, 3))
+    >>> samples = Samples(positions, np.linalg.norm(positions - 0.5, axis=1))
+    >>> spheres = [samples.contour(radius, triangles=True) for radius in (0.2, 0.3)]
+    >>> [round(sphere.area, 1) for sphere in spheres]
+    [0.5, 1.1]
     """
 
     def __init__(

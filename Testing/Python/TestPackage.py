@@ -421,8 +421,11 @@ class Results(unittest.TestCase):
             contour(*cloud(2000), 0.4).to_trimesh()
 
     def test_docstrings(self):
-        for owner in (_functions, scatteredisopoints._samples):
+        for owner in (_functions, scatteredisopoints._isosurface, scatteredisopoints._samples):
             self.assertEqual(doctest.testmod(owner).failed, 0)
+        for owner in (contour, scatteredisopoints.body, scatteredisopoints.slice_samples, probe, gradient, Samples,
+                      Isosurface):
+            self.assertIn(">>> ", owner.__doc__)
         for triangles in (False, True):
             for name in _options.option_names(triangles):
                 self.assertIn(name + "=", contour.__doc__)
