@@ -97,9 +97,9 @@ def values_of(array: Any, count: int) -> tuple[np.ndarray, Optional[np.ndarray]]
         raise TypeError("values are missing: one for each position")
     masked = None
     if isinstance(array, np.ma.MaskedArray):
-        masked = column("values", np.ma.getmaskarray(array), count, one_component=True).view(bool)
+        masked = checked_column("values", np.ma.getmaskarray(array), count, one_component=True).view(bool)
         array = array.data
-    return (column("values", array, count, one_component=True),
+    return (checked_column("values", array, count, one_component=True),
             masked if masked is not None and masked.any() else None)
 
 
@@ -110,7 +110,7 @@ def describe_masked(masked: np.ndarray) -> str:
     return f"{np.count_nonzero(masked)} of {len(masked)} values are masked: their samples are left out. {remedy}"
 
 
-def column(name: str, array: Any, count: int, one_component: bool = False) -> np.ndarray:
+def checked_column(name: str, array: Any, count: int, one_component: bool = False) -> np.ndarray:
     """An array of the samples with shape (count,) or, unless one_component, (count, components)."""
     result = readable(name, array)
     if one_component and result.ndim == 2 and result.shape[1] == 1:
@@ -122,7 +122,7 @@ def column(name: str, array: Any, count: int, one_component: bool = False) -> np
     return result
 
 
-def tensors(name: str, array: Any, count: int) -> np.ndarray:
+def checked_tensors(name: str, array: Any, count: int) -> np.ndarray:
     """An array of the samples with any number of components, in shape (count, ...)."""
     result = readable(name, array)
     if result.ndim < 1 or len(result) != count or 0 in result.shape:
@@ -155,7 +155,7 @@ def further_arrays(arrays: Optional[Mapping[str, Any]], count: int) -> dict[str,
         raise TypeError(MAPPING_NEEDED)
     if "values" in arrays:
         raise ValueError('an array cannot have the name "values", which is that of the values')
-    return {name: column(name, array, count) for name, array in by_name(arrays).items()}
+    return {name: checked_column(name, array, count) for name, array in by_name(arrays).items()}
 
 
 def levels_of(name: str, given: Union[float, Iterable[float], None]) -> list[float]:

@@ -21,14 +21,15 @@ if TYPE_CHECKING:
 OPTIONS = tuple(BodyOptions.__annotations__)
 
 
-def make_body(samples: Samples, options: Mapping[str, Any], arrays: Any, threads: Optional[int], report: Any
-              ) -> tuple[Isosurface, list[_library.Message]]:
+def compute_body(samples: Samples, options: Mapping[str, Any], arrays: Any, threads: Optional[int], report: Any
+                 ) -> tuple[Isosurface, list[_library.Message]]:
     """The body of samples, with arrays as of Samples.body(), and messages. Calls `report` with the share done."""
     chosen = make_options(True, {**options, "capping": True, "projection": None, "compute_normals": False})
     with samples._in_call(threads) as threads:
         of_samples = samples._arrays_of(arrays)
-        if samples._held != "body":
-            samples._hold("body", np.zeros(len(samples)), [samples._excluded], {"progress": part(report, 0.0, 0.3)})
+        if samples._loaded_key != "body":
+            samples._load_values("body", np.zeros(len(samples)), [samples._excluded],
+                                 {"progress": part(report, 0.0, 0.3)})
         surface = samples._surface([-math.inf], chosen, {"progress": part(report, 0.3, 1.0)})
         found = samples._interpolated(surface, of_samples, None)
     isosurface = samples._as_isosurface(surface, found, [-math.inf], chosen, threads)
@@ -36,11 +37,11 @@ def make_body(samples: Samples, options: Mapping[str, Any], arrays: Any, threads
     return isosurface, _library.messages(surface)
 
 
-def body_of(samples: Samples, arrays: Any, threads: Optional[int], progress: Progress, options: Mapping[str, Any],
-            stacklevel: int) -> Isosurface:
+def body_with_warnings(samples: Samples, arrays: Any, threads: Optional[int], progress: Progress,
+                       options: Mapping[str, Any], stacklevel: int) -> Isosurface:
     """Samples.body()."""
     check_names(options, OPTIONS)
     with shown_progress(progress, "Finding the body") as report:
-        made, messages = make_body(samples, options, arrays, threads, report)
+        made, messages = compute_body(samples, options, arrays, threads, report)
     warn_of(samples, made, messages, arrays is None, stacklevel + 1)
     return made

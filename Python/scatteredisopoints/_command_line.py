@@ -55,7 +55,7 @@ The file is then FOLDER/scatteredisopoints/paraview/{PYTHON_PLUGIN.name}; PYTHON
 
 
 def loaded(samples: DataSamples, given: argparse.Namespace, report: Progress) -> Samples:
-    return Samples._of(samples, given.threads, progress=part(report, 0.0, 0.3))
+    return Samples._from_data(samples, given.threads, progress=part(report, 0.0, 0.3))
 
 
 def contoured(given: argparse.Namespace, report: Progress) -> Isosurface:
@@ -87,7 +87,7 @@ def probed(given: argparse.Namespace, report: Progress) -> Isosurface:
     names = given.arrays or list(samples.arrays)
     if not names:
         raise ValueError(f"{given.file} has no arrays of numbers to interpolate")
-    places, found = places_of(given, as_numpy(samples.positions))
+    places, found = requested_places(given, as_numpy(samples.positions))
     values = loaded(samples, given, report).probe(
         places, arrays=names, gradient=given.gradient, method=given.method, outside=given.outside,
         progress=part(report, 0.3, 1.0))
@@ -96,7 +96,7 @@ def probed(given: argparse.Namespace, report: Progress) -> Isosurface:
     return Isosurface(places, arrays=found, make_polydata=PolyDataMaker(normals=None))
 
 
-def places_of(given: argparse.Namespace, positions: np.ndarray) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+def requested_places(given: argparse.Namespace, positions: np.ndarray) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """Where to probe, and arrays there."""
     if given.places:
         return as_numpy(read_samples(given.places).positions), {}

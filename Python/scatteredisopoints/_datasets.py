@@ -73,7 +73,7 @@ def is_of_pyvista(data: Any) -> bool:
     return any(base.__module__.startswith("pyvista.") for base in type(data).__mro__)
 
 
-def places(composite: Any) -> Iterator[Any]:
+def leaf_iterators(composite: Any) -> Iterator[Any]:
     """An iterator of VTK at each data set of a composite."""
     iterator = composite.NewIterator()
     iterator.InitTraversal()
@@ -85,7 +85,7 @@ def places(composite: Any) -> Iterator[Any]:
 def leaves(data: Any) -> Iterator[Any]:
     """The data sets of a composite, or the data set itself."""
     if data.IsA("vtkCompositeDataSet"):
-        yield from (place.GetCurrentDataObject() for place in places(data))
+        yield from (each.GetCurrentDataObject() for each in leaf_iterators(data))
     else:
         yield data
 
@@ -113,7 +113,7 @@ def state_of(data: Any) -> tuple:
     return tuple(state)
 
 
-def samples_of(
+def samples_with_values(
     source: Any, values: Any, associations: Optional[tuple[int, ...]] = None, attribute: int = SCALARS,
     are_values: bool = True,
 ) -> DataSamples:
@@ -159,7 +159,7 @@ def samples_of(
     return _gathered(data, block_of, describe, with_arrays=are_values)
 
 
-def samples_with(data: Any, names: Sequence[str], associations: tuple[int, ...]) -> DataSamples:
+def samples_with_arrays(data: Any, names: Sequence[str], associations: tuple[int, ...]) -> DataSamples:
     """The samples of a data object without values, at the points or cells with arrays of all these names."""
     lacking = set(names)
 
@@ -189,7 +189,7 @@ def have_numbers(data: Any) -> bool:
                for leaf in leaves(data) if leaf.IsA("vtkDataSet") and leaf.GetNumberOfPoints() > 0)
 
 
-def samples_at(data: Any, with_arrays: bool) -> DataSamples:
+def samples_without_values(data: Any, with_arrays: bool) -> DataSamples:
     """The samples of a data object without values: points or, of a data set with arrays of cells alone, the cells."""
 
     def block_of(leaf: Any) -> DataSamples:
@@ -361,7 +361,7 @@ def _joined(blocks: list[DataSamples]) -> DataSamples:
                        parts=[part for block in blocks for part in block.parts])
 
 
-def places_of(places: Any) -> np.ndarray:
+def place_positions(places: Any) -> np.ndarray:
     """Places with shape (n, 3), those of a data set at its points."""
     data = data_object(places)
     if data is not None and not data.IsA("vtkDataSet"):
@@ -422,13 +422,13 @@ def _cell_centers(leaf: Any) -> np.ndarray:
     return as_numpy(centers).astype(np.float32 if is_float else np.float64, copy=False)
 
 
-def samples_for(source: Any, values: Any, associations: tuple[int, ...] = (POINT, CELL)) -> DataSamples:
+def samples_for_call(source: Any, values: Any, associations: tuple[int, ...] = (POINT, CELL)) -> DataSamples:
     """The samples for calls on arrays, without values, so that each array keeps those it has."""
     data = data_object(source)
     if data is None:
-        return samples_of(source, None)
+        return samples_with_values(source, None)
     if isinstance(values, str) or are_names(values):
-        return samples_with(data, [values] if isinstance(values, str) else values, associations)
+        return samples_with_arrays(data, [values] if isinstance(values, str) else values, associations)
     first = next(iter(values.values()), None) if isinstance(values, Mapping) else values
     association = POINT if first is None else association_of(data, np.shape(first))
-    return samples_with(data, (), (association,))
+    return samples_with_arrays(data, (), (association,))

@@ -8,14 +8,14 @@ import math
 from typing import Any, Iterable, Iterator, Mapping, Optional, Union
 
 from ._arrays import levels_of
-from ._bodies import body_of
+from ._bodies import body_with_warnings
 from ._cuts import Normal
-from ._datasets import data_object, samples_for
+from ._datasets import data_object, samples_for_call
 from ._isosurface import Isosurface
 from ._option_types import BodyOptions, ContourOptions, SliceOptions, Unpack
 from ._progress import Progress, part, shown_progress
 from ._samples import Samples
-from ._slices import sliced
+from ._slices import slice_with_warnings
 
 
 def contour(
@@ -138,7 +138,7 @@ def body(
     True
     """
     with _loaded(positions, arrays, "Finding the body", threads, progress) as (samples, report):
-        return body_of(samples, arrays, None, report, options, stacklevel=3)
+        return body_with_warnings(samples, arrays, None, report, options, stacklevel=3)
 
 
 def slice_samples(
@@ -197,8 +197,8 @@ def slice_samples(
     True
     """
     with _loaded(positions, arrays, "Slicing", threads, progress) as (samples, report):
-        return sliced(samples, normal, origin, arrays, function, offsets, interpolation, None, report, options,
-                      stacklevel=3)
+        return slice_with_warnings(samples, normal, origin, arrays, function, offsets, interpolation, None, report,
+                                   options, stacklevel=3)
 
 
 def probe(
@@ -289,5 +289,5 @@ def _loaded(source: Any, arrays: Any, title: str, threads: Optional[int], progre
             ) -> Iterator[tuple[Samples, Progress]]:
     """Samples without values, and the progress of the work after loading."""
     with shown_progress(progress, title) as report:
-        samples = Samples._of(samples_for(source, arrays), threads, progress=part(report, 0.0, 0.2))
+        samples = Samples._from_data(samples_for_call(source, arrays), threads, progress=part(report, 0.0, 0.2))
         yield samples, part(report, 0.2, 1.0)

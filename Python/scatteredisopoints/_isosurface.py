@@ -13,7 +13,7 @@ from typing import Any, Callable, Iterable, Iterator, Mapping, Optional, Union
 import numpy as np
 
 from . import _library
-from ._arrays import column, readable
+from ._arrays import checked_column, readable
 from ._measures import Measures, Piece, measure
 from ._options import number_of, thread_count
 from ._polydata import PolyDataMaker
@@ -223,7 +223,7 @@ class Isosurface:
             _library.Callbacks(**callbacks), surface, _library.make_splat_mesh, scale)
         point_of_vertex = _library.view(surface, _library.SPLAT_VERTEX_POINTS)
         is_canceled = callbacks.get("is_canceled")
-        arrays = {name: _at_vertices(surface, column(name, array, len(self)), point_of_vertex, is_canceled)
+        arrays = {name: _at_vertices(surface, checked_column(name, array, len(self)), point_of_vertex, is_canceled)
                   for name, array in self.arrays.items()}
         arrays["Normals"] = _library.view(surface, _library.SPLAT_VERTEX_NORMALS)
         return Isosurface(

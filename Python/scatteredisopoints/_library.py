@@ -55,7 +55,7 @@ class Array(ctypes.Structure):
         return described
 
 
-class Numbers:
+class InputArray:
     """The type of a parameter that the library reads: an array of NumPy, alive during the call, or None."""
 
     @staticmethod
@@ -63,7 +63,7 @@ class Numbers:
         return None if numbers is None else byref(Array.of(numbers))
 
 
-class ManyNumbers:
+class InputArrays:
     """The type of a parameter that is several arrays that the library reads, alive during the call."""
 
     @staticmethod
@@ -74,7 +74,7 @@ class ManyNumbers:
         return described
 
 
-class Memory:
+class OutputArray:
     """The type of a parameter that the library writes: a contiguous array of NumPy, alive during the call."""
 
     @staticmethod
@@ -91,7 +91,7 @@ class Probed(ctypes.Structure):
                 ("gradients_size", c_uint64)]
 
 
-class ProbedMemory:
+class ProbeOutputs:
     """The type of a parameter with the memory for several arrays: pairs of values and of gradients or None."""
 
     @staticmethod
@@ -99,10 +99,10 @@ class ProbedMemory:
         described = (Probed * len(pairs))()
         described.pairs = pairs
         for each, (values, gradients) in zip(described, pairs):
-            each.values, each.values_size = Memory.from_param(values).data, values.nbytes
+            each.values, each.values_size = OutputArray.from_param(values).data, values.nbytes
             if gradients is not None:
                 each.gradients, each.gradients_size = (
-                    Memory.from_param(gradients).data_as(POINTER(c_double)), gradients.nbytes)
+                    OutputArray.from_param(gradients).data_as(POINTER(c_double)), gradients.nbytes)
         return described
 
 
@@ -151,14 +151,14 @@ destroy_extractor = _declare("destroy_extractor", c_void_p, result=None)
 set_extractor_threads = _declare("set_extractor_threads", c_void_p, c_int32)
 set_extractor_callbacks = _declare("set_extractor_callbacks", c_void_p, Progress, Cancels, c_void_p)
 set_value_name = _declare("set_value_name", c_void_p, c_char_p)
-set_samples = _declare("set_samples", c_void_p, Numbers, Numbers, Numbers)
+set_samples = _declare("set_samples", c_void_p, InputArray, InputArray, InputArray)
 get_value_range = _declare("get_value_range", c_void_p, POINTER(2 * c_double), result=None)
 extract = _declare("extract", c_void_p, POINTER(c_double), c_int64, POINTER(Options),
                    POINTER(c_void_p))
 initialize_probe_options = _declare("initialize_probe_options", POINTER(ProbeOptions), c_size_t, result=None)
-probe = _declare("probe", c_void_p, Numbers, ManyNumbers, c_int64, POINTER(ProbeOptions), ProbedMemory, Memory,
+probe = _declare("probe", c_void_p, InputArray, InputArrays, c_int64, POINTER(ProbeOptions), ProbeOutputs, OutputArray,
                  c_size_t)
-create_surface = _declare("create_surface", Numbers, Numbers, Numbers, Numbers, POINTER(c_void_p))
+create_surface = _declare("create_surface", InputArray, InputArray, InputArray, InputArray, POINTER(c_void_p))
 destroy_surface = _declare("destroy_surface", c_void_p, result=None)
 set_surface_threads = _declare("set_surface_threads", c_void_p, c_int32)
 set_surface_callbacks = _declare("set_surface_callbacks", c_void_p, Progress, Cancels, c_void_p)
@@ -170,9 +170,9 @@ get_message_cause = _declare("get_message_cause", c_void_p, c_int64, result=c_ch
 get_message_code = _declare("get_message_code", c_void_p, c_int64, result=c_int32)
 join_messages = _declare("join_messages", c_void_p, c_void_p)
 get_array = _declare("get_array", c_void_p, c_int32, POINTER(Array))
-interpolate = _declare("interpolate", c_void_p, Numbers, Memory, c_size_t)
+interpolate = _declare("interpolate", c_void_p, InputArray, OutputArray, c_size_t)
 make_splat_mesh = _declare("make_splat_mesh", c_void_p, c_double)
-average_at_splat_vertices = _declare("average_at_splat_vertices", c_void_p, Numbers, Memory, c_size_t)
+average_at_splat_vertices = _declare("average_at_splat_vertices", c_void_p, InputArray, OutputArray, c_size_t)
 
 
 class Handle:

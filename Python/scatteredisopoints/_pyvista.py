@@ -18,7 +18,7 @@ import pyvista as pv
 
 from . import _datasets, _library
 from ._arrays import CELL, POINT, are_names, package_of
-from ._bodies import body_of
+from ._bodies import body_with_warnings
 from ._cuts import three_numbers
 from ._derivatives import DERIVATIVES, names_of_derivatives
 from ._lines_and_grids import box_of, grid_in, line_between
@@ -27,7 +27,7 @@ from ._options import check_names, named, switch
 from ._polydata import as_vtk
 from ._progress import Progress, shown_progress
 from ._samples import Samples
-from ._slices import sliced
+from ._slices import slice_with_warnings
 from ._splats import polygons_of
 
 
@@ -143,8 +143,8 @@ class ScatteredAccessor:
             Closed triangles between samples, with their arrays.
         """
         with self._samples_with(scalars, preference, progress_bar, threads, needs_arrays=False) as (samples, arrays):
-            return body_of(samples, None if scalars is None else arrays, threads, progress_bar, options,
-                           stacklevel=3).polydata
+            return body_with_warnings(samples, None if scalars is None else arrays, threads, progress_bar, options,
+                                      stacklevel=3).polydata
 
     def splats(self, scale: float = 1.0, *, threads: Optional[int] = None) -> pv.PolyData:
         """Turn isopoints into polygons that show them as a closed surface.
@@ -376,8 +376,9 @@ class ScatteredAccessor:
         with self._samples_with(scalars, preference, progress, threads, needs_arrays=False) as (samples, arrays):
             if origin is None and function is None:
                 origin = _datasets.bounds_of(self._dataset).mean(axis=1)
-            result = sliced(samples, normal, origin, None if scalars is None else arrays, function, offsets,
-                            interpolation, threads, progress, options, stacklevel=4).polydata
+            result = slice_with_warnings(
+                samples, normal, origin, None if scalars is None else arrays, function, offsets, interpolation, threads,
+                progress, options, stacklevel=4).polydata
         return result.contour() if switch("contour", contour) and result.n_cells else result
 
     def compute_derivative(
@@ -441,7 +442,7 @@ class ScatteredAccessor:
                computed: Optional[Mapping[str, np.ndarray]] = None) -> Any:
         """probe(), with further arrays that are computed."""
         data = _datasets.data_object(where)
-        places = pv.PolyData(_datasets.places_of(where).copy()) if data is None else data
+        places = pv.PolyData(_datasets.place_positions(where).copy()) if data is None else data
         with self._samples_with(scalars, preference, progress_bar, threads) as (samples, arrays):
             found = samples._probe(places, arrays, gradient, method, outside, threads, progress_bar, stacklevel=4)
             differing = samples._differing if scalars is None else ()
@@ -469,8 +470,8 @@ class ScatteredAccessor:
 
         def find() -> _datasets.DataSamples:
             if is_bare and associations[0] == POINT:
-                return _datasets.samples_at(data, with_arrays=True)
-            return _datasets.samples_with(data, names, (CELL,) if is_bare else associations)
+                return _datasets.samples_without_values(data, with_arrays=True)
+            return _datasets.samples_with_arrays(data, names, (CELL,) if is_bare else associations)
 
         choice = "without values", is_bare, *names, *associations
         with _kept_samples(data, choice, find, progress, threads, True) as samples:
@@ -497,8 +498,9 @@ class ScatteredAccessor:
         if not isinstance(scalars, str):
             yield Samples(data, scalars, threads=threads, progress=progress)
             return
-        with _kept_samples(data, (scalars, *associations), lambda: _datasets.samples_of(data, scalars, associations),
-                           progress, threads, keeps) as samples:
+        with _kept_samples(data, (scalars, *associations),
+                           lambda: _datasets.samples_with_values(data, scalars, associations), progress, threads, keeps
+                           ) as samples:
             yield samples
 
 
@@ -568,7 +570,7 @@ def _kept_samples(data: Any, choice: tuple, find: Callable[[], _datasets.DataSam
     if samples is None or kept[1] != key:
         with shown_progress(progress, "Loading samples") as report:
             if samples is None:
-                samples = Samples._of(find(), threads, progress=report)
+                samples = Samples._from_data(find(), threads, progress=report)
             else:
                 samples._take(find(), progress=report)
     try:

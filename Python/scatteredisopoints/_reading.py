@@ -63,8 +63,8 @@ def read_samples(path: str, names: Sequence[str] = (), columns: Optional[Sequenc
     if isinstance(data, dict):
         samples = _datasets.DataSamples(positions, None, None, data, PolyDataMaker())
     else:
-        samples = (_datasets.samples_with(data, wholes, (POINT, CELL)) if names else
-                   _datasets.samples_at(data, with_arrays=True))
+        samples = (_datasets.samples_with_arrays(data, wholes, (POINT, CELL)) if names else
+                   _datasets.samples_without_values(data, with_arrays=True))
     for name, whole in zip(names, wholes):
         if name != whole:
             samples.arrays[name] = _part(whole, as_numpy(samples.arrays[whole]), name[len(whole) + 1:].lower())

@@ -16,9 +16,9 @@ import numpy as np
 
 from . import _datasets, _library
 from ._arrays import (
-    are_names, as_numpy, by_name, describe_masked, further_arrays, levels_of, positions_of, readable, tensors,
+    are_names, as_numpy, by_name, checked_tensors, describe_masked, further_arrays, levels_of, positions_of, readable,
     values_of)
-from ._bodies import body_of
+from ._bodies import body_with_warnings
 from ._cuts import Normal
 from ._interpolator import Interpolator
 from ._isosurface import Isosurface, describe_not_finite
@@ -26,7 +26,7 @@ from ._option_types import BodyOptions, ContourOptions, SliceOptions, Unpack
 from ._options import (
     CONSTANTS, direction_sign, hint, make_options, make_probe_options, switch, thread_count)
 from ._progress import Progress, shown_progress
-from ._slices import sliced
+from ._slices import slice_with_warnings
 
 
 @dataclass
@@ -83,10 +83,10 @@ class Samples:
     ):
         self._initialize(threads)
         with shown_progress(progress, "Loading samples") as report:
-            self._take(_datasets.samples_of(positions, values), progress=report)
+            self._take(_datasets.samples_with_values(positions, values), progress=report)
 
     @classmethod
-    def _of(cls, samples: _datasets.DataSamples, threads: Optional[int] = None, **callbacks: Any) -> Samples:
+    def _from_data(cls, samples: _datasets.DataSamples, threads: Optional[int] = None, **callbacks: Any) -> Samples:
         """Makes Samples of a data object. Callbacks are those of _library.Callbacks."""
         created = cls.__new__(cls)
         created._initialize(threads)
@@ -105,7 +105,7 @@ class Samples:
         self._extractor = _library.Extractor(_library.create_extractor())
         self._is_loaded = False
         self._range = (np.nan, np.nan)
-        self._held: Any = None
+        self._loaded_key: Any = None
         self._values: Any = None
 
     def _renew_lock(self) -> None:
@@ -188,10 +188,10 @@ class Samples:
             raise ValueError("There are no samples: the input has no points.")
         numbers = None if values is None else readable("values", as_numpy(values))
         with self._exclusive():
-            self._is_loaded, self._held, self._range = False, None, (np.nan, np.nan)
+            self._is_loaded, self._loaded_key, self._range = False, None, (np.nan, np.nan)
             self._values, self._masked = values, masked
             _library.run(_library.set_extractor_threads, self._extractor, thread_count(self._threads))
-            self._hold(1, numbers, [self._excluded, masked], callbacks)
+            self._load_values(1, numbers, [self._excluded, masked], callbacks)
             range_ = (2 * c_double)()
             _library.get_value_range(self._extractor, byref(range_))
             self._range = range_[0], range_[1]
@@ -200,11 +200,11 @@ class Samples:
             self._value_type = np.float32 if are_float and is_float else np.float64
             self._is_loaded = True
 
-    def _hold(self, key: Any, numbers: Any, left_out: list[Optional[np.ndarray]], callbacks: Mapping[str, Any]
-              ) -> None:
+    def _load_values(self, key: Any, numbers: Any, left_out: list[Optional[np.ndarray]], callbacks: Mapping[str, Any]
+                     ) -> None:
         """Makes these numbers the values that the extractor holds. Their key says which ones they are: a cut's, "body",
         or for the samples' own values their sign."""
-        self._held = None
+        self._loaded_key = None
         positions = positions_of(self._current("positions", self._positions))
         masks = [each for each in left_out if each is not None]
         name = f"negated {self._name or 'values'}" if key == -1 else self._name
@@ -212,20 +212,20 @@ class Samples:
         _library.run_with(
             _library.Callbacks(**callbacks), self._extractor, _library.set_samples, positions, numbers,
             np.any(masks, axis=0).view(np.uint8) if masks else None)
-        self._held = key
+        self._loaded_key = key
 
-    def _hold_values(self, callbacks: Mapping[str, Any], sign: int = 1) -> None:
+    def _reload_own_values(self, callbacks: Mapping[str, Any], sign: int = 1) -> None:
         """Loads the samples' own values again if the extractor holds others, such as those of a slice.
 
         sign: -1 negates them.
         """
-        if self._held != sign and self._values is not None:
+        if self._loaded_key != sign and self._values is not None:
             numbers = readable("values", as_numpy(self._values))
             if sign < 0:
                 is_narrow = numbers.dtype.kind in "iu" and numbers.dtype.itemsize < 8
                 wide = np.int64 if is_narrow else numbers.dtype if numbers.dtype == np.float32 else np.float64
                 numbers = -numbers.astype(wide, copy=False)
-            self._hold(sign, numbers, [self._excluded, self._masked], callbacks)
+            self._load_values(sign, numbers, [self._excluded, self._masked], callbacks)
 
     def _require_samples(self) -> None:
         if not self._is_loaded:
@@ -278,7 +278,7 @@ class Samples:
         with self._in_call(threads) as threads:
             if self._values is None:
                 raise ValueError("The samples were made without values: call replace_values().")
-            self._hold_values({**callbacks, "progress": None}, sign)
+            self._reload_own_values({**callbacks, "progress": None}, sign)
             surface = self._surface([sign * level for level in levels], chosen, callbacks)
             messages = []
             if self._masked is not None:
@@ -322,7 +322,7 @@ class Samples:
         **options: Unpack[BodyOptions]
     ) -> Isosurface:
         """The closed surface of all samples: :func:`body` describes it. ``arrays`` are as in :meth:`slice`."""
-        return body_of(self, arrays, threads, progress, options, stacklevel=3)
+        return body_with_warnings(self, arrays, threads, progress, options, stacklevel=3)
 
     def slice(
         self,
@@ -347,8 +347,8 @@ class Samples:
             As in :meth:`probe`. None: the values of the samples and the arrays of the data set that they were made
             of.
         """
-        return sliced(self, normal, origin, arrays, function, offsets, interpolation, threads, progress, options,
-                      stacklevel=3)
+        return slice_with_warnings(self, normal, origin, arrays, function, offsets, interpolation, threads, progress,
+                                   options, stacklevel=3)
 
     def probe(
         self,
@@ -374,7 +374,7 @@ class Samples:
     def gradient(
         self, *, arrays: Any = None, method: str = "blend", threads: Optional[int] = None, progress: Progress = None
     ) -> Any:
-        """Gradients at the samples themselves: :func:`gradient` describes them. Parameters are those of :meth:`probe`."""
+        """Gradients at the samples themselves: :func:`gradient` describes them. Parameters are as of :meth:`probe`."""
         return self._gradient(arrays, method, threads, progress, stacklevel=3)
 
     def interpolator(
@@ -406,7 +406,7 @@ class Samples:
         if with_gradients and is_nearest:
             raise ValueError('the method "nearest" has no gradients: use another one')
         many = by_name(arrays)
-        points = _datasets.places_of(places)
+        points = _datasets.place_positions(places)
         with shown_progress(progress, "Probing") as report, self._in_call(threads):
             numbers = {name: self._numbers_of(array, name) for name, array in many.items()}
             values, gradients, kinds = self._probed(points, numbers, chosen, with_gradients, report)
@@ -431,7 +431,7 @@ class Samples:
             gradients[name] = np.empty((*shape, 3)) if with_gradients else None
         kinds = np.empty(len(points), np.uint8)
         if leaves_out and self._skipped > 0:
-            self._hold_values({})
+            self._reload_own_values({})
         _library.run_with(
             _library.Callbacks(report), self._extractor, _library.probe, points,
             [array.reshape(len(array), -1) for array in numbers.values()], len(numbers), byref(options),
@@ -475,7 +475,7 @@ class Samples:
                     hint(array, known) if known else "give its numbers, for they are of no data set with arrays"))
             name, array = array, known[array]
         is_of_vtk = hasattr(array, "GetDataType") and not isinstance(array, np.ndarray)
-        return tensors(name, self._current(name, array) if is_of_vtk else array, len(self))
+        return checked_tensors(name, self._current(name, array) if is_of_vtk else array, len(self))
 
     def _arrays_of(self, arrays: Any) -> dict[str, Any]:
         """Arrays by name; for None the values, and all arrays of the data set."""

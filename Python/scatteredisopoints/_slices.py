@@ -21,9 +21,10 @@ if TYPE_CHECKING:
     from ._samples import Samples
 
 
-def sliced(samples: Samples, normal: Optional[Normal], origin: Any, arrays: Any, function: Any, offsets: Any,
-           interpolation: Any, threads: Optional[int], progress: Progress, options: Mapping[str, Any], stacklevel: int
-           ) -> Isosurface:
+def slice_with_warnings(
+    samples: Samples, normal: Optional[Normal], origin: Any, arrays: Any, function: Any, offsets: Any,
+    interpolation: Any, threads: Optional[int], progress: Progress, options: Mapping[str, Any], stacklevel: int
+) -> Isosurface:
     """Samples.slice()."""
     method = named("interpolation", interpolation, INTERPOLATIONS)
     cut, level = make_cut(normal, origin, function, lambda: _center_of_bounds(samples))
@@ -32,7 +33,7 @@ def sliced(samples: Samples, normal: Optional[Normal], origin: Any, arrays: Any,
         raise ValueError("An offset is not a number. Choose numbers as offsets.")
     chosen = make_slice_options(options)
     with shown_progress(progress, "Slicing") as report:
-        made, messages = make_slice(samples, cut, levels, chosen, arrays, method, threads, report)
+        made, messages = compute_slice(samples, cut, levels, chosen, arrays, method, threads, report)
     warn_of(samples, made, messages, arrays is None, stacklevel + 1)
     return made
 
@@ -47,14 +48,14 @@ def warn_of(samples: Samples, isosurface: Isosurface, messages: list[_library.Me
         warnings.warn(text, RuntimeWarning, stacklevel=stacklevel)
 
 
-def make_slice(samples: Samples, cut: Cut, levels: list[float], options: _library.Options, arrays: Any,
-               method: Optional[str], threads: Optional[int], report: Any
-               ) -> tuple[Isosurface, list[_library.Message]]:
+def compute_slice(samples: Samples, cut: Cut, levels: list[float], options: _library.Options, arrays: Any,
+                  method: Optional[str], threads: Optional[int], report: Any
+                  ) -> tuple[Isosurface, list[_library.Message]]:
     """A slice at levels of a function, with arrays as of Samples.slice(), and messages. Calls `report` with the share
     done."""
     with samples._in_call(threads) as threads:
         of_samples = samples._arrays_of(arrays)
-        at_samples = _hold_cut(samples, cut, part(report, 0.0, 0.3))
+        at_samples = _load_cut(samples, cut, part(report, 0.0, 0.3))
         surface = samples._surface(levels, options, {"progress": part(report, 0.3, 0.6)})
         points = _library.view(surface, _library.POINTS)
         found = samples._interpolated(surface, of_samples, None)
@@ -77,9 +78,9 @@ def _center_of_bounds(samples: Samples) -> np.ndarray:
     return samples._center
 
 
-def _hold_cut(samples: Samples, cut: Cut, report: Any) -> Optional[np.ndarray]:
+def _load_cut(samples: Samples, cut: Cut, report: Any) -> Optional[np.ndarray]:
     """Loads the values of a function at the samples, unless the extractor has them. Returns what it loaded."""
-    if cut.normal is not None and samples._held == cut.normal:
+    if cut.normal is not None and samples._loaded_key == cut.normal:
         return None
     positions = samples._current("positions", samples._positions).astype(np.float64, copy=False)
     at_samples = cut.at(positions)
@@ -87,7 +88,7 @@ def _hold_cut(samples: Samples, cut: Cut, report: Any) -> Optional[np.ndarray]:
     if lacking:
         raise ValueError(f"The cut function is not finite at {lacking} of {samples._count} samples. Choose one that is"
                          " finite everywhere.")
-    samples._hold(cut.normal, at_samples, [samples._excluded], {"progress": report})
+    samples._load_values(cut.normal, at_samples, [samples._excluded], {"progress": report})
     return at_samples
 
 

@@ -84,7 +84,8 @@ class _Contour(ContourValues, ScatteredAlgorithm):
         begin, end = part
         half = 0.5 * (begin + end)
         choice = self._array_choice()
-        samples = self._loaded(data, number, choice, lambda: _datasets.samples_of(data, *choice), (begin, half))
+        samples = self._loaded(
+            data, number, choice, lambda: _datasets.samples_with_values(data, *choice), (begin, half))
         options = {option: self._values[property_name(option)] for option in option_names(self._triangles)}
         extracted: Extracted = samples._extract(
             self.GetValues(), self._triangles, None, options, **self._callbacks((half, end)))

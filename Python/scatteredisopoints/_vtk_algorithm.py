@@ -17,6 +17,7 @@ from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 from . import _datasets, _library, _progress
 from ._arrays import CELL, POINT
+from ._isosurface import Isosurface
 from ._options import option_names, property_name
 from ._properties import Property, properties_of
 from ._samples import Samples
@@ -85,7 +86,7 @@ def fill(output: Any, data: Any, make: Callable[[Any, int], Any], are_all: bool 
     """Gives a composite the structure of another one, with a result for each of its data sets: other leaves,
     such as tables, have none unless all have."""
     output.CopyStructure(data)
-    for number, place in enumerate(_datasets.places(data)):
+    for number, place in enumerate(_datasets.leaf_iterators(data)):
         block = place.GetCurrentDataObject()
         output.SetDataSet(place, make(block, number) if are_all or block.IsA("vtkDataSet") else None)
 
@@ -256,7 +257,7 @@ class ScatteredAlgorithm(Algorithm):
             found = find()
             callbacks = self._callbacks(part)
             if samples is None:
-                samples = Samples._of(found, **callbacks)
+                samples = Samples._from_data(found, **callbacks)
             else:
                 samples._take(found, **callbacks)
             self._kept[number] = key, samples, found.parts
@@ -264,10 +265,10 @@ class ScatteredAlgorithm(Algorithm):
 
     def _all_samples(self, data: Any, with_arrays: bool = True) -> Samples:
         """The samples of all blocks, without values."""
-        return self._loaded(data, 0, None, lambda: _datasets.samples_at(data, with_arrays), (0.0, LOADED))
+        return self._loaded(data, 0, None, lambda: _datasets.samples_without_values(data, with_arrays), (0.0, LOADED))
 
     def _array_choice(self) -> tuple[Optional[str], tuple[int, ...], int]:
-        """The array to process, as samples_of() takes it: name, associations, active array."""
+        """The array to process, as samples_with_values() takes it: name, associations, active array."""
         info = self.GetInputArrayInformation(0)
         name = info.Get(vtkDataObject.FIELD_NAME()) if info.Has(vtkDataObject.FIELD_NAME()) else None
         associations = {vtkDataObject.FIELD_ASSOCIATION_CELLS: (CELL,),
@@ -279,6 +280,15 @@ class ScatteredAlgorithm(Algorithm):
     def _count_samples(self, samples: Samples) -> None:
         self._counts["Samples"] = len(samples) + samples._without_array
         self._counts["SkippedSamples"] = samples.skipped + samples._without_array
+
+    def _finish(self, samples: Samples, made: Isosurface, messages: list[_library.Message], output: Any
+                ) -> list[_library.Message]:
+        """Fills the output and counts with triangles. Returns all messages."""
+        output.ShallowCopy(made.polydata)
+        self._count_samples(samples)
+        self._counts["ExtractedPoints"] = len(made)
+        return [*messages, *describe_left_out(
+            samples._differing, "Only arrays are kept that all blocks have, with the same components.")]
 
     def _describe_skipped(self, samples: Samples, of_none: str, of_some: str) -> list[_library.Message]:
         """The message about skipped samples, unless all of them are ghosts. Ends with a sentence for none or some

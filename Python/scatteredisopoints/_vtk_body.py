@@ -8,10 +8,10 @@ from typing import Any
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from . import _library
-from ._bodies import OPTIONS, make_body
+from ._bodies import OPTIONS, compute_body
 from ._options import property_name
 from ._progress import part
-from ._vtk_algorithm import LOADED, ScatteredAlgorithm, describe_left_out, with_counts, with_properties
+from ._vtk_algorithm import LOADED, ScatteredAlgorithm, with_counts, with_properties
 
 
 @with_properties("ScatteredBody")
@@ -27,9 +27,5 @@ class vtkScatteredBodyFilter(ScatteredAlgorithm):
     def _compute(self, data: Any, output: Any) -> list[_library.Message]:
         samples = self._all_samples(data)
         options = {name: self._values[property_name(name)] for name in (*OPTIONS, "keep_tree")}
-        made, messages = make_body(samples, options, None, None, part(self._advance, LOADED, 1.0))
-        output.ShallowCopy(made.polydata)
-        self._count_samples(samples)
-        self._counts["ExtractedPoints"] = len(made)
-        return [*messages, *describe_left_out(
-            samples._differing, "Only arrays are kept that all blocks have, with the same components.")]
+        made, messages = compute_body(samples, options, None, None, part(self._advance, LOADED, 1.0))
+        return self._finish(samples, made, messages, output)

@@ -39,7 +39,7 @@ class vtkScatteredGradientFilter(Probing):
         wanted = self._wanted()
         choice = self._array_choice()
         samples = self._loaded(
-            data, 0, choice, lambda: _datasets.samples_of(data, *choice, are_values=False), (0.0, LOADED))
+            data, 0, choice, lambda: _datasets.samples_with_values(data, *choice, are_values=False), (0.0, LOADED))
         parts = self._kept[0][2]
         self._count_samples(samples)
         results: dict[str, np.ndarray] = {}

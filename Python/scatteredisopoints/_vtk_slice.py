@@ -13,8 +13,8 @@ from ._cuts import cut_by
 from ._option_types import SliceOptions
 from ._options import INTERPOLATIONS, make_slice_options, property_name
 from ._progress import part
-from ._slices import make_slice
-from ._vtk_algorithm import LOADED, ContourValues, ScatteredAlgorithm, describe_left_out, with_counts, with_properties
+from ._slices import compute_slice
+from ._vtk_algorithm import LOADED, ContourValues, ScatteredAlgorithm, with_counts, with_properties
 
 
 @with_properties("ScatteredSlice")
@@ -54,14 +54,10 @@ class vtkScatteredSliceFilter(ContourValues, ScatteredAlgorithm):
         levels = [level + value for value in self.GetValues()]
         options = make_slice_options({name: self._values[property_name(name)] for name in SliceOptions.__annotations__})
         options.keep_tetrahedra = self._values["KeepTree"]
-        made, messages = make_slice(samples, cut, levels, options, None,
-                                    [*INTERPOLATIONS.values()][self._values["Interpolation"]], None,
-                                    part(self._advance, LOADED, 1.0))
-        output.ShallowCopy(made.polydata)
-        self._count_samples(samples)
-        self._counts["ExtractedPoints"] = len(made)
-        return [*messages, *describe_left_out(
-            samples._differing, "Only arrays are kept that all blocks have, with the same components.")]
+        made, messages = compute_slice(
+            samples, cut, levels, options, None, [*INTERPOLATIONS.values()][self._values["Interpolation"]], None,
+            part(self._advance, LOADED, 1.0))
+        return self._finish(samples, made, messages, output)
 
 
 def _modifying(slice_: vtkScatteredSliceFilter) -> Any:

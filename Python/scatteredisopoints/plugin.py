@@ -7,8 +7,9 @@ from typing import Any, Optional
 
 from ._paths import PLUGIN, PYTHON_PLUGIN
 
-_PROXIES = ("ScatteredIsopoints", "ScatteredIsosurface", "IsopointSplatPolygons", "ScatteredProbe", "ScatteredLine",
-            "ScatteredGrid", "ScatteredGradient", "ScatteredSlice", "ScatteredBody")
+PROXIES = ("ScatteredIsopoints", "ScatteredIsosurface", "IsopointSplatPolygons", "ScatteredProbe", "ScatteredLine",
+           "ScatteredGrid", "ScatteredGradient", "ScatteredSlice", "ScatteredBody")
+"""The names of the filters in ParaView."""
 
 
 def loaded_plugins() -> set[str]:
@@ -49,8 +50,8 @@ def load_plugin(namespace: Optional[dict[str, Any]] = None) -> None:
     path = PLUGIN if PLUGIN.exists() else PYTHON_PLUGIN
     if not {"ScatteredIsopoints", "ScatteredIsopointsPython"} & loaded_plugins():
         simple.LoadPlugin(str(path), remote=False)
-    if not hasattr(simple, _PROXIES[0]):  # the server has not loaded it
+    if not hasattr(simple, PROXIES[0]):  # the server has not loaded it
         simple.LoadPlugin(str(path), remote=True)
     if namespace is not None:
-        for name in _PROXIES:
+        for name in PROXIES:
             namespace[name] = getattr(simple, name)

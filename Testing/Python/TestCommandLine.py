@@ -27,7 +27,8 @@ TABLE = np.column_stack([POSITIONS, VALUES])
 # POSITIONS and VALUES as text: what surrounds the numbers, and their delimiter.
 TEXTS = {"a.csv": ("x,y,z,T\n", ","), "quoted.csv": ('# by hand\n\n"X (m)", "Y (m)" , "Z [m]", "T"\n', ", "),
          "semicolons.csv": ('\ufeffX;Y;Z;"T"\n', ";"), "tabs.tsv": ("x\ty\tz\tT\n", "\t"),
-         "blanks.txt": ("# x y z T\n", "  "), "decimal.txt": ("# x y z T\n", " "), "paraview.csv": ('"Points:0","Points:1","Points:2","T"\n', ",")}
+         "blanks.txt": ("# x y z T\n", "  "), "decimal.txt": ("# x y z T\n", " "),
+         "paraview.csv": ('"Points:0","Points:1","Points:2","T"\n', ",")}
 
 
 def write_inputs():
@@ -225,7 +226,8 @@ class CommandLine(unittest.TestCase):
         damaged = {"cut.ply": pathlib.Path("big.ply").read_bytes()[:5000], "cut.npz": b"PK", "cut.npy": b"hello",
                    "empty.csv": b"", "head.csv": b"x,y,z,T\n", "ragged.csv": b"x,y,z,T\n1,2,3,4\n1,2,3\n",
                    "words.csv": b"x,y,z,T\n1,2,3,4\n1,2,east,5\n", "flat.csv": b"a,b,T\n1,2,3\n",
-                   "twice.csv": b"x,y,z,x\n1,2,3,4\n", "units.csv": b"x [m],x [ft],y,z,T\n1,2,3,4,5\n", "quotes.csv": b'""\n', "cut.vtu": b"<VTKFile"}
+                   "twice.csv": b"x,y,z,x\n1,2,3,4\n", "units.csv": b"x [m],x [ft],y,z,T\n1,2,3,4,5\n",
+                   "quotes.csv": b'""\n', "cut.vtu": b"<VTKFile"}
         for name, content in damaged.items():
             pathlib.Path(name).write_bytes(content)
         cases = [
@@ -245,14 +247,14 @@ class CommandLine(unittest.TestCase):
             ("contour cut.npy T 0.3", 1, "magic"), ("contour empty.csv T 0.3", 1, "it is empty"),
             ("contour head.csv T 0.3", 1, "no samples"), ("contour quotes.csv T 0.3", 1, "it is empty"),
             ("contour twice.csv T 0.3", 1, 'two columns have the name "x"'),
-            ("contour units.csv T 1", 1, r'several columns for "x": .* --columns; there are x \[m\], x \[ft\], y, z, T$'),
+            ("contour units.csv T 1", 1, r'several columns for "x": .* --columns; there are x \[m\], x \[ft\], y,'),
             ("contour ragged.csv T 0", 1, "line 3 has 3 entries instead of 4"),
             ("contour words.csv T 0.3", 1, '"east" in line 3, column "z"'),
             ("contour flat.csv T 0.3", 1, "give the coordinates by --columns; there are a, b, T"),
             ("slice a.csv --origin 5,5,5", 1, "slice"), ("slice a.csv --normal w", 2, "w: give x, y, z, -x,.* 1,1,0$"),
             ("probe a.csv", 2, "required"), ("probe a.csv --at 1,2", 2, "--at: 1,2: give three"),
             ("probe a.csv --at 1,2,3 --outside no", 2, "--outside: no: give a number, nearest or fit$"),
-            ("probe a.csv --grid 1,0,1", 2, "--grid: 1,0,1: give three whole numbers"), ("contour a.csv T", 2, "ISOVALUE"),
+            ("probe a.csv --grid 1,0,1", 2, "--grid: 1,0,1: give three whole"), ("contour a.csv T", 2, "ISOVALUE"),
             ("contour a.csv T x", 2, "x: give a number$"),
             ("contour a.csv T 1 --threads 0", 2, "--threads: 0: give a whole number, 1 or more$"),
             ("contour a.csv T 1 --thread 1", 2, "unrecognized"), ("", 2, "COMMAND"), ("nothing", 2, "nothing"),

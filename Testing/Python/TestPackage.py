@@ -286,10 +286,10 @@ class Results(unittest.TestCase):
         declared = [value for value in vars(_library).values() if isinstance(value, ctypes._CFuncPtr)]
         outputs = [each.__name__ for each in declared if ctypes.POINTER(_library.Array) in (each.argtypes or ())]
         self.assertEqual(outputs, ["isopoint_get_array"])
-        inputs = [each.__name__ for each in declared if _library.Numbers in (each.argtypes or ())]
+        inputs = [each.__name__ for each in declared if _library.InputArray in (each.argtypes or ())]
         self.assertEqual(len(inputs), 5)
-        self.assertIs(_library.ManyNumbers.from_param([numbers]).arrays[0].numbers, numbers)
-        self.assertIs(_library.ProbedMemory.from_param([(numbers, None)]).pairs[0][0], numbers)
+        self.assertIs(_library.InputArrays.from_param([numbers]).arrays[0].numbers, numbers)
+        self.assertIs(_library.ProbeOutputs.from_param([(numbers, None)]).pairs[0][0], numbers)
 
     def test_surfaces_without_splats(self):
         positions, values = cloud()
@@ -554,7 +554,8 @@ class KeptTrees(unittest.TestCase):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             for call, other in (
-                    (lambda of: of.contour(0.4, triangles=True, capping=True), lambda of: of.replace_values(2 * lacking)),
+                    (lambda of: of.contour(0.4, triangles=True, capping=True),
+                     lambda of: of.replace_values(2 * lacking)),
                     (lambda of: of.slice("z", arrays=values), lambda of: of.contour(0.3))):
                 expected = contents(call(Samples(positions, lacking)))
                 self.assertEqual(contents(self.with_call_meanwhile(Samples(positions, lacking), call, other)), expected)

@@ -18,7 +18,7 @@ if _SITE not in sys.path:
 
 from scatteredisopoints import __version__, _vtk  # noqa: E402
 from scatteredisopoints._properties import proxy_of  # noqa: E402
-from scatteredisopoints.plugin import loaded_plugins  # noqa: E402
+from scatteredisopoints.plugin import PROXIES, loaded_plugins  # noqa: E402
 
 paraview_plugin_name = "ScatteredIsopointsPython"
 paraview_plugin_version = __version__
@@ -54,9 +54,8 @@ def _adapted(name):
 _IS_LOADED = "ScatteredIsopoints" in loaded_plugins()
 if _IS_LOADED:
     print("ScatteredIsopoints, the compiled plugin, is loaded already: the one in Python adds nothing.")
-for _filter in (_vtk.vtkScatteredIsopointFilter, _vtk.vtkScatteredIsosurfaceFilter, _vtk.vtkIsopointSplatPolygons,
-                _vtk.vtkScatteredProbeFilter, _vtk.vtkScatteredLineFilter, _vtk.vtkScatteredGridFilter,
-                _vtk.vtkScatteredGradientFilter, _vtk.vtkScatteredSliceFilter, _vtk.vtkScatteredBodyFilter):
-    globals()[_filter.PROXY] = type(_filter.PROXY, (_filter,), {  # ParaView 6 wants a class with XML
-        "_pvsm_proxy_xml": "<ServerManagerConfiguration />" if _IS_LOADED else _adapted(_filter.PROXY),
+_FILTERS = {getattr(each, "PROXY", ""): each for each in vars(_vtk).values()}
+for _name in PROXIES:
+    globals()[_name] = type(_name, (_FILTERS[_name],), {  # ParaView 6 wants a class with XML
+        "_pvsm_proxy_xml": "<ServerManagerConfiguration />" if _IS_LOADED else _adapted(_name),
         "_has_polygons": True})
