@@ -27,7 +27,7 @@ from ._polydata import PolyDataMaker
 from ._progress import Progress, part
 from ._reading import read_samples
 from ._samples import Samples
-from ._writing import write_csv, write_file, writer_for
+from ._writing import file_to_write, write_csv, writer_for
 
 PROGRAM = "python -m scatteredisopoints"
 FILES = """
@@ -249,7 +249,8 @@ def run(given: argparse.Namespace) -> None:
     if out is None:
         write_csv(sys.stdout.fileno(), surface)
         return
-    write_file(write, out, surface)
+    with file_to_write(out) as target:
+        write(target, surface)
     triangles = "" if surface.triangles is None else f", {len(surface.triangles)} triangles"
     volume = f", volume {surface.volume:.6g}" if given.command == "body" else ""
     print(f"{out}: {len(surface)} points{triangles}{volume}", flush=True)

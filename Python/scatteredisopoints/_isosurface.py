@@ -128,10 +128,11 @@ class Isosurface:
             Its ending says the format: .ply, .stl, .obj, .npz or .csv; with PyVista also .vtk, .vtp and .vtu, and with
             meshio its own. Raises ValueError if no installed package writes this format.
         """
-        from ._writing import write_file, writer_for  # which imports this module
+        from ._writing import file_to_write, writer_for  # which imports this module
 
-        name = os.fspath(path)
-        write_file(writer_for(name, self.are_triangles), name, self)
+        write = writer_for(os.fspath(path), self.are_triangles)
+        with file_to_write(os.fspath(path)) as target:
+            write(target, self)
 
     @property
     def pieces(self) -> tuple[Piece, ...]:

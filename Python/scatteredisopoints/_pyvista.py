@@ -488,20 +488,16 @@ class ScatteredAccessor:
                             " positions first.")
         return data
 
-    @contextlib.contextmanager
     def _loaded(self, scalars: Any, preference: str, progress: Progress, threads: Optional[int], keeps: bool
-                ) -> Iterator[Samples]:
-        """The samples with values."""
+                ) -> contextlib.AbstractContextManager[Samples]:
         data, associations = self._checked(), _associations(preference)
         if scalars is None:
             scalars, associations = _active_scalars(data)
         if not isinstance(scalars, str):
-            yield Samples(data, scalars, threads=threads, progress=progress)
-            return
-        with _kept_samples(data, (scalars, *associations),
-                           lambda: _datasets.samples_with_values(data, scalars, associations), progress, threads, keeps
-                           ) as samples:
-            yield samples
+            return contextlib.nullcontext(Samples(data, scalars, threads=threads, progress=progress))
+        return _kept_samples(data, (scalars, *associations),
+                             lambda: _datasets.samples_with_values(data, scalars, associations), progress, threads,
+                             keeps)
 
 
 def _associations(preference: str) -> tuple[int, ...]:

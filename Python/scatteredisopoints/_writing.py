@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files of isosurfaces: see writer_for(), write_file() and file_to_write()."""
+"""Files of isosurfaces: see writer_for() and file_to_write()."""
 
 from __future__ import annotations
 
@@ -38,12 +38,6 @@ def writer_for(path: str, are_triangles: bool) -> Writer:
             return _by_meshio
     raise ValueError(f'the format of {path} is unknown: there are {", ".join(_WRITERS)}, with PyVista'
                      f' {", ".join(_OF_PYVISTA)}, and those of meshio (pip install pyvista meshio)')
-
-
-def write_file(write: Writer, path: str, surface: Isosurface) -> None:
-    """Writes a file. If this fails, an earlier one stays as it was."""
-    with file_to_write(path) as target:
-        write(target, surface)
 
 
 @contextlib.contextmanager
