@@ -259,16 +259,13 @@ class Samples:
     def _contour(self, isovalues, triangles, arrays, threads, progress, options, stacklevel) -> Isosurface:
         with shown_progress(progress, "Contouring") as report:
             extracted = self._extract(isovalues, triangles, arrays, options, threads, progress=report)
-        if not options.get("keep_tree", True):
-            with self._exclusive():
-                self._clear()
         isosurface = extracted.isosurface
         for text in [*(message.text for message in extracted.messages), *describe_not_finite(isosurface.arrays)]:
             warnings.warn(text, RuntimeWarning, stacklevel=stacklevel)
         return isosurface
 
     def _extract(self, isovalues, triangles, arrays, options, threads=None, **callbacks) -> Extracted:
-        """contour() without warnings, and without keep_tree. Callbacks are those of _library.Callbacks."""
+        """contour() without warnings. Callbacks are those of _library.Callbacks."""
         if arrays is not None and self._arrays is not None:
             raise TypeError("arrays go with an array of positions: add them to the data set instead")
         chosen = make_options(triangles, options)
@@ -295,6 +292,8 @@ class Samples:
                         is_warning=True, cause=f"isovalues replace {name}"))
                 contoured = self._contoured(surface, chosen, sign, callbacks.get("is_canceled"))
                 found[name] = contoured.astype(self._value_type, copy=False)
+            if not options.get("keep_tree", True):
+                self._clear()
         computed = _computed(surface, chosen, sign)
         messages += [_library.Message(
             f'The computed array "{name}" replaces the input array of this name. To keep that, rename'
