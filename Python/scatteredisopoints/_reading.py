@@ -203,17 +203,18 @@ def _read_ply(path: str) -> dict[str, np.ndarray]:
     with open(path, "rb") as file:
         while header[-1:] != [["end_header"]] and len(header) < 1000:
             header.append(file.readline().decode("ascii", "replace").split() or [""])
+        header = [words for words in header if words[0] not in ("comment", "obj_info")]
         try:
             order = {"ascii": "=", "binary_little_endian": "<", "binary_big_endian": ">"}[header[1][1]]
             begin = next(i for i, words in enumerate(header) if words[0] == "element")
             properties = list(takewhile(lambda words: words[0] == "property", header[begin + 1:]))
             kind = np.dtype([(name, np.dtype(PLY_TYPES.get(each, each)).newbyteorder(order))
                              for _, each, name in properties])
-            if header[0] != ["ply"] or header[begin][1] != "vertex":
-                raise ValueError
             count = int(header[begin][2])
+            if header[0] != ["ply"] or header[begin][1] != "vertex" or count < 0:
+                raise ValueError
         except (LookupError, StopIteration, TypeError, ValueError):
-            raise ValueError("it is no PLY file that begins with vertices of numbers") from None
+            raise ValueError("its header is not that of a PLY file that begins with vertices of numbers") from None
         table = (np.loadtxt(islice(file, count), kind, ndmin=1) if order == "=" else
                  np.fromfile(file, kind, count))
     if len(table) != count:

@@ -40,7 +40,7 @@ def write_inputs():
     np.save("records.npy", np.rec.fromarrays(TABLE.T, names="x,y,z,T"))
     np.savez("a.npz", points=POSITIONS, T=VALUES, velocity=POSITIONS * [1, 2, 3])
     np.savez("columns.npz", **dict(zip(("x", "y", "z", "T"), TABLE.T)))
-    properties = "".join(f"property double {name}\n" for name in ("x", "y", "z", "T"))
+    properties = "obj_info i\n".join(f"property double {name}\n" for name in ("x", "y", "z", "T"))
     faces = "element face 1\nproperty list uchar int vertex_indices\n"
     lines = [*(" ".join(map(repr, row)) for row in TABLE.tolist()), "3 0 1 2"]
     for name, kind, body in (("ascii.ply", "ascii", "\n".join(lines).encode()),
@@ -226,8 +226,14 @@ class CommandLine(unittest.TestCase):
         damaged = {"cut.ply": pathlib.Path("big.ply").read_bytes()[:5000], "cut.npz": b"PK", "cut.npy": b"hello",
                    "empty.csv": b"", "head.csv": b"x,y,z,T\n", "ragged.csv": b"x,y,z,T\n1,2,3,4\n1,2,3\n",
                    "words.csv": b"x,y,z,T\n1,2,3,4\n1,2,east,5\n", "flat.csv": b"a,b,T\n1,2,3\n",
-                   "twice.csv": b"x,y,z,x\n1,2,3,4\n", "units.csv": b"x [m],x [ft],y,z,T\n1,2,3,4,5\n",
-                   "quotes.csv": b'""\n', "cut.vtu": b"<VTKFile"}
+                   "twice.csv": b"x,y,z,x
+1,2,3,4
+", "units.csv": b"x [m],x [ft],y,z,T
+1,2,3,4,5
+",
+                   "quotes.csv": b'""
+', "cut.vtu": b"<VTKFile",
+                   "minus.ply": pathlib.Path("big.ply").read_bytes().replace(b"vertex 3000", b"vertex -1")}
         for name, content in damaged.items():
             pathlib.Path(name).write_bytes(content)
         cases = [
@@ -244,6 +250,7 @@ class CommandLine(unittest.TestCase):
             ("contour a.csv T 0.3 --option drop_gap=0", 1, "did you mean drop_gaps"),
             ("contour a.csv T 0.3 --columns x,y,q", 1, 'no "q": .* there are x, y, z, T$'),
             ("contour cut.ply T 0.3", 1, "cut.ply cannot be read: it ends after"), ("contour cut.npz T 1", 1, "zip"),
+            ("contour minus.ply T 0.3", 1, "its header is not that of a PLY file"),
             ("contour cut.npy T 0.3", 1, "magic"), ("contour empty.csv T 0.3", 1, "it is empty"),
             ("contour head.csv T 0.3", 1, "no samples"), ("contour quotes.csv T 0.3", 1, "it is empty"),
             ("contour twice.csv T 0.3", 1, 'two columns have the name "x"'),
