@@ -430,5 +430,6 @@ def samples_for_call(source: Any, values: Any, associations: tuple[int, ...] = (
     if isinstance(values, str) or are_names(values):
         return samples_with_arrays(data, [values] if isinstance(values, str) else values, associations)
     first = next(iter(values.values()), None) if isinstance(values, Mapping) else values
-    association = POINT if first is None else association_of(data, np.shape(first))
-    return samples_with_arrays(data, (), (association,))
+    if first is None:
+        return samples_without_values(data, with_arrays=True)
+    return samples_with_arrays(data, (), (association_of(data, np.shape(first)),))

@@ -7,7 +7,8 @@ import warnings
 import numpy as np
 from filter_testing import ANY, chosen
 from scatteredisopoints import (
-    Samples, contour, slice_samples, vtkScatteredIsopointFilter, vtkScatteredIsosurfaceFilter, vtkScatteredSliceFilter)
+    Samples, body, contour, slice_samples, vtkScatteredBodyFilter, vtkScatteredIsopointFilter,
+    vtkScatteredIsosurfaceFilter, vtkScatteredSliceFilter)
 from scatteredisopoints._options import number_of, property_name
 from vtk_data import (
     amr_of, assert_same, blocks_of, centers_in, cloud_of, configured, named, observed, points_of, positions_in,
@@ -313,6 +314,11 @@ class Slices(unittest.TestCase):
         np.testing.assert_allclose(sliced.arrays["place"], sliced.points, atol=1e-9)
         self.assertEqual(set(slice_samples(data, arrays=["place"]).arrays), {"place"})
         self.assertEqual(set(Samples(data, "distance").slice("y").arrays), set(sliced.arrays))
+        of_cells, _ = prepared(image(), of_cells=True)
+        self.assertEqual(set(slice_samples(of_cells).arrays), set(sliced.arrays))
+        filtered = set_all(vtkScatteredBodyFilter(), InputDataObject=of_cells)
+        filtered.Update()
+        assert_same(self, filtered.GetOutput(), body(of_cells).polydata)
 
 
 if __name__ == "__main__":
