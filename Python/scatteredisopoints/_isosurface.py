@@ -8,12 +8,13 @@ import math
 import os
 import warnings
 from ctypes import byref, c_void_p
-from typing import Any, Callable, Iterable, Iterator, Mapping, Optional, Union
+from dataclasses import replace
+from typing import Any, Iterable, Iterator, Mapping, Optional, Union
 
 import numpy as np
 
 from . import _library
-from ._arrays import checked_column, readable
+from ._arrays import checked_column, package_of, readable
 from ._measures import Measures, Piece, measure
 from ._options import number_of, thread_count
 from ._polydata import PolyDataMaker
@@ -59,7 +60,7 @@ class Isosurface:
         arrays: Optional[dict[str, np.ndarray]] = None,
         splat_shapes: Optional[Mapping[str, np.ndarray]] = None,
         cell_arrays: Optional[Mapping[str, np.ndarray]] = None,
-        make_polydata: Callable[[Isosurface], Any] = PolyDataMaker(),
+        make_polydata: PolyDataMaker = PolyDataMaker(),
         threads: Optional[int] = None,
         levels: Iterable[float] = (math.nan,),
         isovalues: Optional[np.ndarray] = None,
@@ -110,7 +111,11 @@ class Isosurface:
 
     def to_pyvista(self) -> Any:
         """A pyvista.PolyData that shares the arrays' memory. Raises ImportError if PyVista is not installed."""
-        return _imported("pyvista").wrap(self.polydata)
+        pyvista = _imported("pyvista")
+        package, data = package_of(pyvista.PolyData()), self.polydata
+        if package_of(data) != package:  # PyVista has cvista, while the data are of vtkmodules
+            data = replace(self._make_polydata, package=package, field_data=None)(self)
+        return pyvista.wrap(data)
 
     def to_trimesh(self) -> Any:
         """A trimesh.Trimesh of the triangles as they are, without arrays. Raises ImportError if trimesh is not

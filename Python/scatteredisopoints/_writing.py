@@ -129,9 +129,7 @@ _WRITERS: dict[str, Writer] = {
 
 
 def _by_pyvista(path: str, surface: Isosurface) -> None:
-    import pyvista
-
-    data = pyvista.wrap(surface.polydata)
+    data = surface.to_pyvista()
     (data.cast_to_unstructured_grid() if path.lower().endswith(".vtu") else data).save(path)
 
 

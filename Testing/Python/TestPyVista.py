@@ -232,6 +232,16 @@ class Accessor(unittest.TestCase):
         self.assertEqual(surface.polydata.points[0].tolist(), [7.0, 7.0, 7.0])
         self.assertGreater(surface.splats().polydata.n_cells, 1000)
 
+    def test_surfaces_of_arrays_become_data_of_pyvista(self):
+        data = cloud(3000)
+        surface = contour(np.asarray(data.points), np.asarray(data["distance"]), 0.3, triangles=True)
+        with mock.patch.object(pv.PolyData, "save", autospec=True) as save, self.assertRaises(FileNotFoundError):
+            surface.save("a.vtp")  # cvista may lack writers
+        for found in (surface.to_pyvista(), save.call_args.args[0]):
+            np.testing.assert_array_equal(found.points, surface.points)
+            np.testing.assert_array_equal(found.regular_faces, surface.triangles)
+            np.testing.assert_array_equal(found["Normals"], surface.normals)
+
 
 class Probing(unittest.TestCase):
     """Values at places; affine fields are exact."""
