@@ -92,6 +92,8 @@ def _positions(path: str, table: dict[str, Any], columns: Optional[Sequence[str]
     wanted = columns or [dict(zip(names, table)).get(name, name) for name in usual]
     for name in (name for name in wanted if name not in table):
         raise ValueError(f'{path} has no "{name}": give the coordinates by --columns; there are {", ".join(table)}')
+    if len({*wanted}) < len(wanted):
+        raise ValueError(f"the columns {', '.join(wanted)} are not different: give the coordinates by --columns")
     arrays = [table.pop(name) for name in wanted]
     for error in (array for array in arrays if isinstance(array, Exception)):
         raise ValueError(f"{path}: {error}")
@@ -99,7 +101,7 @@ def _positions(path: str, table: dict[str, Any], columns: Optional[Sequence[str]
 
 
 def _read(path: str) -> Any:
-    """A table of arrays by name, with a ValueError in place of one of text; or a data set."""
+    """A table of arrays by name, with a ValueError in place of one without numbers; or a data set."""
     suffix = Path(path).suffix.lower()
     if path == "-":
         return _read_text(sys.stdin)
@@ -110,13 +112,13 @@ def _read(path: str) -> Any:
         with open(path, "rb") as binary:
             array = np.lib.format.read_array(binary)
         if array.dtype.names:
-            return {name: array[name] for name in array.dtype.names}
+            return {name: _numbers(array, name) for name in array.dtype.names}
         if array.ndim != 2 or array.shape[1] < 3:
             raise ValueError(f"its shape is {array.shape}, not (n, 4): x, y, z and value")
         return dict(zip(_default_names(array.shape[1]), array.T))
     if suffix == ".npz":
         with zipfile.ZipFile(path), np.load(path) as archive:
-            return dict(archive)
+            return {name: _numbers(archive, name) for name in archive.files}
     if suffix == ".ply":
         return _read_ply(path)
     if importlib.util.find_spec("pyvista"):
@@ -142,6 +144,15 @@ def _read(path: str) -> Any:
                       f" {', '.join((*_TEXT, '.npy', '.npz', '.ply'))}")
 
 
+def _numbers(table: Any, name: str) -> Any:
+    """An array by name, or a ValueError in place of one without numbers."""
+    with contextlib.suppress(ValueError):  # of Python's objects
+        array = table[name]
+        if array.dtype.kind in "biuf" and 0 not in array.shape[1:]:
+            return array
+    return ValueError(f'the array "{name}" holds no numbers')
+
+
 def _default_names(count: int) -> list[str]:
     """Of columns without names."""
     return ["x", "y", "z", *(["value"] if count == 4 else map(str, range(4, count + 1)))][:count]
@@ -161,8 +172,16 @@ def _read_text(file: TextIO) -> dict[str, Any]:
 
     def rows_of(lines: Any) -> Any:
         tidy = ("" if line.startswith("#") else " ".join(line.split()) if delimiter == " " else line for line in lines)
-        reader = csv.reader(tidy, delimiter=delimiter, skipinitialspace=True)
-        return ((reader.line_num, row) for row in reader if "".join(row).strip())
+        reader, begin = csv.reader(tidy, delimiter=delimiter, skipinitialspace=True), 1
+        try:
+            for row in reader:
+                if row and row[-1].endswith("\n"):  # of the last line
+                    raise csv.Error
+                if "".join(row).strip():
+                    yield reader.line_num, row
+                begin = reader.line_num + 1
+        except csv.Error:  # of an entry that is too long
+            raise ValueError(f"a quote in line {begin} is not closed") from None
 
     def number(text: str) -> Optional[float]:
         try:
