@@ -21,7 +21,8 @@ from ._arrays import as_numpy
 from ._datasets import DataSamples
 from ._isosurface import Isosurface
 from ._lines_and_grids import lattice, line_between
-from ._options import CONSTANTS, INTERPOLATIONS
+from ._option_types import OPTION_TYPES
+from ._options import CONSTANTS, INTERPOLATIONS, check_names
 from ._paths import PYTHON_PLUGIN
 from ._polydata import PolyDataMaker
 from ._progress import Progress, part
@@ -58,6 +59,15 @@ def loaded(samples: DataSamples, given: argparse.Namespace, report: Progress) ->
     return Samples._from_data(samples, given.threads, progress=part(report, 0.0, 0.3))
 
 
+def options_of(given: argparse.Namespace) -> dict[str, Any]:
+    """Options by name, without other parameters. Raises TypeError for an unknown one, ValueError for one twice."""
+    options = dict(given.option)
+    check_names(options, OPTION_TYPES)
+    if len(options) < len(given.option):
+        raise ValueError(f"an option is given twice: {', '.join(name for name, _ in given.option)}")
+    return options
+
+
 def contoured(given: argparse.Namespace, report: Progress) -> Isosurface:
     samples = read_samples(given.file, [given.array], given.columns)
     samples.values = as_numpy(samples.arrays.pop(given.array))
@@ -68,18 +78,18 @@ def contoured(given: argparse.Namespace, report: Progress) -> Isosurface:
     samples.are_float = samples.values.dtype == np.float32
     return loaded(samples, given, report).contour(
         given.isovalues, triangles=not given.points, progress=part(report, 0.3, 1.0),
-        **({"capping": True} if given.capping else {}), **dict(given.option))
+        **options_of(given))
 
 
 def body(given: argparse.Namespace, report: Progress) -> Isosurface:
     samples = loaded(read_samples(given.file, given.arrays, given.columns), given, report)
-    return samples.body(arrays=given.arrays or None, progress=part(report, 0.3, 1.0), **dict(given.option))
+    return samples.body(arrays=given.arrays or None, progress=part(report, 0.3, 1.0), **options_of(given))
 
 
 def sliced(given: argparse.Namespace, report: Progress) -> Isosurface:
     samples = loaded(read_samples(given.file, given.arrays, given.columns), given, report)
     return samples.slice(given.normal, given.origin, arrays=given.arrays or None, offsets=given.offsets,
-                         interpolation=given.interpolation, progress=part(report, 0.3, 1.0), **dict(given.option))
+                         interpolation=given.interpolation, progress=part(report, 0.3, 1.0), **options_of(given))
 
 
 def probed(given: argparse.Namespace, report: Progress) -> Isosurface:
@@ -106,6 +116,8 @@ def requested_places(given: argparse.Namespace, positions: np.ndarray) -> tuple[
         return places, {"Distance": distances}
     if given.grid:
         finite = positions[np.isfinite(positions).all(axis=1)]
+        if len(finite) == 0:
+            raise ValueError("No sample has a finite position, so there are no bounds for a grid.")
         return lattice(list(map(np.linspace, finite.min(axis=0), finite.max(axis=0), given.grid))), {}
     return np.array(given.at), {}
 
@@ -189,7 +201,8 @@ def make_parsers() -> tuple[argparse.ArgumentParser, dict[str, argparse.Argument
     added.add_argument("array", metavar="ARRAY")
     added.add_argument("isovalues", metavar="ISOVALUE", nargs="+", type=NUMBER)
     added.add_argument("--points", action="store_true", help="points with normals and radii instead of triangles")
-    added.add_argument("--capping", action="store_true", help="close the body of the samples at or above ISOVALUE")
+    added.add_argument("--capping", dest="option", action="append_const", const=("capping", True),
+                       help="close the body of the samples at or above ISOVALUE")
     command("body", body, "The closed surface of all samples.", beside.format("body"), "particles.ply -o body.stl",
             "particles.csv density --option minimum_piece_size=0.01")
     added = command("slice", sliced, "Slices by planes.", beside.format("slice"), "samples.csv --normal z",
@@ -241,6 +254,9 @@ def run(given: argparse.Namespace) -> None:
         finally:
             if sys.stderr.isatty():
                 print("\r     ", end="\r", file=sys.stderr)
+        if out is not None and len(surface):
+            with file_to_write(out) as target:
+                write(target, surface)
     messages = [str(each.message) for each in caught if issubclass(each.category, RuntimeWarning)]
     if len(surface) == 0:
         raise ValueError(" ".join(messages) or "there is no surface")
@@ -249,8 +265,6 @@ def run(given: argparse.Namespace) -> None:
     if out is None:
         write_csv(sys.stdout.fileno(), surface)
         return
-    with file_to_write(out) as target:
-        write(target, surface)
     triangles = "" if surface.triangles is None else f", {len(surface.triangles)} triangles"
     volume = f", volume {surface.volume:.6g}" if given.command == "body" else ""
     print(f"{out}: {len(surface)} points{triangles}{volume}", flush=True)
@@ -278,6 +292,8 @@ def main(arguments: list[str]) -> int:
         text = str(error)
     except OSError as error:
         text = f"{error.filename}: {error.strerror}" if error.filename else str(error)
+    except MemoryError:
+        text = "Out of memory. Free memory, or reduce the number of samples or of places."
     except Exception as error:
         text = repr(error)
     print(f"{PROGRAM} {given.command}: error: {' '.join(text.split())}", file=sys.stderr)

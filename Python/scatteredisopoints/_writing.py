@@ -9,6 +9,7 @@ import errno
 import importlib.util
 import math
 import os
+import warnings
 import zipfile
 from pathlib import Path
 from typing import Any, Callable, Iterator, Union
@@ -92,7 +93,16 @@ def _write_npz(path: str, surface: Isosurface) -> None:
 def _write_ply(path: str, surface: Isosurface) -> None:
     types = {kind: name for name, kind in PLY_TYPES.items()}
     usual = {f"Normals:{i}": "n" + axis for i, axis in enumerate("xyz")}
-    columns = {"_".join(usual.get(name, name).split()): array for name, array in _columns(surface)}
+    given = list(_columns(surface))
+    columns, reserved = dict(given[:3]), [usual[name] for name, _ in given if name in usual]
+    for name, array in given[3:]:
+        label = plain = usual.get(name, "_".join(name.split()).encode("ascii", "replace").decode())
+        while label in columns or label in reserved and name not in usual:
+            label += "_"
+        if label != plain:
+            warnings.warn(f'"{name}" has the name "{label}" in the PLY file, since "{plain}" is another array.',
+                          RuntimeWarning, stacklevel=4)
+        columns[label] = array
     kinds = {name: array.dtype.str[1:] if array.dtype.str[1:] in types else "f8" for name, array in columns.items()}
     vertices = np.empty(len(surface), [(name, "<" + kind) for name, kind in kinds.items()])
     for name, array in columns.items():

@@ -38,7 +38,8 @@ def write_inputs():
         pathlib.Path(name).write_text(text.replace(".", ",") if delimiter in " ;" else text, encoding="utf-8")
     np.save("a.npy", TABLE)
     np.save("records.npy", np.rec.fromarrays(TABLE.T, names="x,y,z,T"))
-    np.savez("a.npz", points=POSITIONS, T=VALUES, velocity=POSITIONS * [1, 2, 3])
+    np.savez("a.npz", points=POSITIONS, T=VALUES, velocity=POSITIONS * [1, 2, 3], words=np.full(3000, "a"),
+             objects=np.full(3000, None), dates=np.zeros(3000, "M8[s]"), nothing=np.empty((3000, 0)), step=7)
     np.savez("columns.npz", **dict(zip(("x", "y", "z", "T"), TABLE.T)))
     properties = "obj_info i\n".join(f"property double {name}\n" for name in ("x", "y", "z", "T"))
     faces = "element face 1\nproperty list uchar int vertex_indices\n"
@@ -201,6 +202,13 @@ class CommandLine(unittest.TestCase):
         np.testing.assert_array_equal(ply.positions, expected.points)
         np.testing.assert_array_equal(np.column_stack([ply.arrays[f"n{axis}"] for axis in "xyz"]), expected.normals)
         np.testing.assert_array_equal(ply.arrays["velocity:2"], expected.arrays["velocity"][:, 2])
+        np.savez("like.npz", points=POSITIONS, T=VALUES, **{name: VALUES for name in ("nx", "x", "a b", "a_b", "ä", "ö")})
+        status, _, errors = run("contour", "like.npz", "T", 0.3, "-o", "like.ply")
+        like = _reading.read_samples("like.ply")
+        np.testing.assert_array_equal(like.positions, expected.points)
+        np.testing.assert_array_equal(like.arrays["nx"], expected.normals[:, 0])
+        self.assertEqual(set(like.arrays), {"T", "nx", "ny", "nz", "nx_", "x_", "a_b", "a_b_", "?", "?_"})
+        self.assertRegex(errors, r'\A(.*contour: warning: "(nx|x|a_b|ö)" has the name ".*_" in the PLY file, .*\n){4}\Z')
         faces = np.frombuffer(pathlib.Path("made.ply").read_bytes()[-13 * len(expected.triangles):],
                               [("n", "u1"), ("corners", "<i4", 3)])
         np.testing.assert_array_equal(faces["corners"], expected.triangles)
@@ -226,13 +234,10 @@ class CommandLine(unittest.TestCase):
         damaged = {"cut.ply": pathlib.Path("big.ply").read_bytes()[:5000], "cut.npz": b"PK", "cut.npy": b"hello",
                    "empty.csv": b"", "head.csv": b"x,y,z,T\n", "ragged.csv": b"x,y,z,T\n1,2,3,4\n1,2,3\n",
                    "words.csv": b"x,y,z,T\n1,2,3,4\n1,2,east,5\n", "flat.csv": b"a,b,T\n1,2,3\n",
-                   "twice.csv": b"x,y,z,x
-1,2,3,4
-", "units.csv": b"x [m],x [ft],y,z,T
-1,2,3,4,5
-",
-                   "quotes.csv": b'""
-', "cut.vtu": b"<VTKFile",
+                   "twice.csv": b"x,y,z,x\n1,2,3,4\n", "units.csv": b"x [m],x [ft],y,z,T\n1,2,3,4,5\n",
+                   "quotes.csv": b'""\n', "cut.vtu": b"<VTKFile",
+                   "open.csv": b'x,y,z,T\n1,2,3,4\n1,2,3,"5\n1,2,3,6\n', "nan.csv": b"x,y,z,T\nnan,1,2,3\n",
+                   "head_open.csv": b'x,y,z,"T\n1,2,3,4\n', "long.csv": b'x,y,z,T\n1,2,3,"4\n' + 40_000 * b"1,2,3,4\n",
                    "minus.ply": pathlib.Path("big.ply").read_bytes().replace(b"vertex 3000", b"vertex -1")}
         for name, content in damaged.items():
             pathlib.Path(name).write_bytes(content)
@@ -248,6 +253,18 @@ class CommandLine(unittest.TestCase):
             ("contour a.npz velocity 0.3", 1, "3 components: choose one, .*velocity:magnitude"),
             ("contour a.npz velocity:w 0.3", 1, 'no component "w": there are 0 to 2'),
             ("contour a.csv T 0.3 --option drop_gap=0", 1, "did you mean drop_gaps"),
+            ("contour a.csv T 0.3 --capping --option capping=False", 1, "option is given twice: capping, capping"),
+            *((f"{command} --option {name}=1", 1, f"unknown option {name}: ") for command, names in (
+                ("contour a.csv T 0.3", ("triangles", "isovalues", "progress")), ("slice a.csv", ("normal", "function")))
+              for name in names),
+            *((f"contour a.npz {name} 1", 1, f'the array "{name}" holds no numbers')
+              for name in ("words", "objects", "dates", "nothing")),
+            ("contour open.csv T 5", 1, "a quote in line 3 is not closed"),
+            ("contour head_open.csv T 5", 1, "a quote in line 1 is not closed"),
+            ("contour long.csv T 5", 1, "a quote in line 2 is not closed"),
+            ("probe nan.csv --grid 2,2,2", 1, "No sample has a finite position"),
+            ("probe a.csv --grid 1000000,1000000,1000000", 1, "Out of memory. Free memory"),
+            ("contour a.csv T 0.3 --columns x,y,x", 1, "columns x, y, x are not different"),
             ("contour a.csv T 0.3 --columns x,y,q", 1, 'no "q": .* there are x, y, z, T$'),
             ("contour cut.ply T 0.3", 1, "cut.ply cannot be read: it ends after"), ("contour cut.npz T 1", 1, "zip"),
             ("contour minus.ply T 0.3", 1, "its header is not that of a PLY file"),
