@@ -28,8 +28,13 @@ class Cut:
 
 def by_plane(normal: np.ndarray) -> Cut:
     x, y, z = numbers = tuple(normal.tolist())
+
     # Not as a product of matrices, whose rounding depends on the library and its threads.
-    return Cut(lambda places: places[:, 0] * x + places[:, 1] * y + places[:, 2] * z, numbers)
+    def at(places: np.ndarray) -> np.ndarray:
+        with np.errstate(invalid="ignore"):  # at places that are not finite
+            return places[:, 0] * x + places[:, 1] * y + places[:, 2] * z
+
+    return Cut(at, numbers)
 
 
 def by_function(function: Callable[[np.ndarray], Any]) -> Cut:

@@ -17,7 +17,7 @@ import numpy as np
 import pyvista as pv
 
 from . import _datasets, _library
-from ._arrays import CELL, POINT, are_names, package_of
+from ._arrays import CELL, POINT, are_names, levels_of, package_of
 from ._bodies import body_with_warnings
 from ._cuts import three_numbers
 from ._derivatives import DERIVATIVES, names_of_derivatives
@@ -113,9 +113,13 @@ class ScatteredAccessor:
                                      " isovalues")
                 if rng is not None and (np.shape(rng) != (2,) or np.asarray(rng).dtype.kind not in "fiu"):
                     raise ValueError(f"rng cannot be {rng!r}: rng has two values, the least and the greatest isovalue")
-                count = int(isosurfaces)
-                isosurfaces = (np.linspace(*samples.range, count + 2)[1:-1].tolist() if rng is None
-                               else np.linspace(rng[0], rng[1], count).tolist())
+                if rng is not None:
+                    isosurfaces = _spaced(*rng, int(isosurfaces))
+                else:  # any isovalue leads to the message that no sample is in use
+                    are_used = samples.skipped < len(samples)
+                    isosurfaces = _spaced(*samples.range, int(isosurfaces) + 2)[1:-1] if are_used else 0.0
+            else:
+                isosurfaces = levels_of("isosurfaces", isosurfaces)
             return samples._contour(isosurfaces, triangles, options.pop("arrays", None), threads, progress_bar, options,
                                     stacklevel=3).polydata
 
@@ -286,7 +290,7 @@ class ScatteredAccessor:
         normal : str | sequence[float], default: "x"
             Normal of the plane: a vector, or the name of an axis, such as ``"-x"``.
         origin : sequence[float], optional
-            A point on the plane, by default the center of the data set.
+            A point on the plane, by default the center of the bounds of the samples.
         generate_triangles : bool, default: True
             Cells are triangles in any case.
         contour : bool, default: False
@@ -327,7 +331,7 @@ class ScatteredAccessor:
         Parameters
         ----------
         x, y, z : float, optional
-            Where the planes cross the axes, by default at the center of the data set.
+            Where the planes cross the axes, by default at the center of the bounds of the samples.
         generate_triangles, contour, progress_bar, **options
             As in :meth:`slice`.
 
@@ -336,10 +340,14 @@ class ScatteredAccessor:
         pyvista.MultiBlock
             The slices ``YZ``, ``XZ`` and ``XY``.
         """
-        center = _datasets.bounds_of(self._checked()).mean(axis=1)
-        origin = [middle if place is None else place for place, middle in zip((x, y, z), center)]
-        return pv.MultiBlock({name: self._slice(axis, origin, None, contour, progress_bar, options)
-                              for name, axis in (("YZ", "x"), ("XZ", "y"), ("XY", "z"))})
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            slices = pv.MultiBlock({
+                name: self._slice(axis, None if place is None else 3 * [place], None, contour, progress_bar, options)
+                for name, axis, place in (("YZ", "x", x), ("XZ", "y", y), ("XY", "z", z))})
+        for text, category in dict.fromkeys((str(each.message), each.category) for each in caught):
+            warnings.warn(text, category, stacklevel=2)
+        return slices
 
     def slice_implicit(
         self,
@@ -374,12 +382,15 @@ class ScatteredAccessor:
         offsets, interpolation = options.pop("offsets", 0.0), options.pop("interpolation", "fits")
         threads = options.pop("threads", None)
         with self._samples_with(scalars, preference, progress, threads, needs_arrays=False) as (samples, arrays):
-            if origin is None and function is None:
-                origin = _datasets.bounds_of(self._dataset).mean(axis=1)
             result = slice_with_warnings(
                 samples, normal, origin, None if scalars is None else arrays, function, offsets, interpolation, threads,
                 progress, options, stacklevel=4).polydata
-        return result.contour() if switch("contour", contour) and result.n_cells else result
+        if not (switch("contour", contour) and result.n_cells):
+            return result
+        try:
+            return result.contour()
+        except (pv.MissingDataError, pv.AmbiguousDataError):
+            raise ValueError("contour=True needs an array of numbers: give its name as scalars") from None
 
     def compute_derivative(
         self,
@@ -498,6 +509,12 @@ class ScatteredAccessor:
         return _kept_samples(data, (scalars, *associations),
                              lambda: _datasets.samples_with_values(data, scalars, associations), progress, threads,
                              keeps)
+
+
+def _spaced(least: float, greatest: float, count: int) -> list[float]:
+    """So many evenly spaced numbers, also where the range of float64 does not hold their difference."""
+    scale = 1.0 if math.isfinite(float(greatest) - float(least)) else 0.25
+    return (np.linspace(scale * least, scale * greatest, count) / scale).tolist()
 
 
 def _associations(preference: str) -> tuple[int, ...]:

@@ -29,7 +29,17 @@ def grid():
     return data
 
 
-class Accessor(unittest.TestCase):
+class Warned(unittest.TestCase):
+    def caught(self, call):
+        """Messages of warnings, all of this file, and a result."""
+        with warnings.catch_warnings(record=True) as caught:  # assertWarns() imports what cvista lacks
+            warnings.simplefilter("always")
+            found = call()
+        self.assertEqual({each.filename for each in caught} - {__file__}, set())
+        return [str(each.message) for each in caught], found
+
+
+class Accessor(Warned):
     def test_nothing_has_to_be_imported(self):
         names = [accessor.name for accessor in pv.registered_accessors()]
         self.assertIn("scattered", dir(cloud()) + names)
@@ -84,6 +94,17 @@ class Accessor(unittest.TestCase):
                 data.scattered.contour(3, rng=wrong)
         with self.assertRaisesRegex(ValueError, "^isosurfaces cannot be -1: give their number, 0 or more, or a list"):
             data.scattered.contour(-1)
+        with self.assertRaisesRegex(TypeError, "^isosurfaces are missing"):
+            data.scattered.contour(None)
+        data["wide"] = (2.2 * data["distance"] - 1) * 1.7e308
+        for rng in (None, (-1.7e308, 1.7e308)):
+            messages, surface = self.caught(lambda: data.scattered.contour(3, "wide", rng=rng))
+            self.assertNotRegex(" ".join(messages), "overflow|invalid")
+            self.assertGreater(surface.n_points, 1000)
+        data["gaps"] = np.full(data.n_points, np.nan)
+        self.assertRegex(self.caught(lambda: data.scattered.contour(3, "gaps"))[0][0], "^Skipped 20000 of 20000 samples")
+        data.point_data["vtkGhostType"] = np.full(data.n_points, 2, np.uint8)
+        self.assertEqual(self.caught(lambda: data.scattered.contour(3))[0], ["All samples are excluded. Include some."])
 
     def test_all_kinds_of_data(self):
         image = grid()
@@ -243,7 +264,7 @@ class Accessor(unittest.TestCase):
             np.testing.assert_array_equal(found["Normals"], surface.normals)
 
 
-class Probing(unittest.TestCase):
+class Probing(Warned):
     """Values at places; affine fields are exact."""
 
     @staticmethod
@@ -323,14 +344,6 @@ class Probing(unittest.TestCase):
                          lambda: probe(source, names, where) if names else source.scattered.probe(where)):
                 with self.subTest(text), self.assertRaisesRegex(ValueError, text):
                     call()
-
-    def caught(self, call):
-        """Messages of warnings, all of this file, and a result."""
-        with warnings.catch_warnings(record=True) as caught:  # assertWarns() imports what cvista lacks
-            warnings.simplefilter("always")
-            found = call()
-        self.assertEqual({each.filename for each in caught} - {__file__}, set())
-        return [str(each.message) for each in caught], found
 
     def test_arrays_of_equal_names(self):
         data = self.cloud()
@@ -458,6 +471,13 @@ class Probing(unittest.TestCase):
         np.testing.assert_allclose(slices["XY"].points[:, 2], data.center[2], atol=1e-6)
         ball = data.scattered.slice_implicit(lambda points: np.linalg.norm(points - data.center, axis=1) - 0.3)
         self.assertTrue(ball.is_manifold)
+        far = pv.PolyData(np.vstack([data.points, [[np.inf, 0.5, 0.5]]]))
+        for call in (lambda: far.scattered.slice("z"), far.scattered.slice_orthogonal):
+            (message,), found = self.caught(call)
+            self.assertRegex(message, "^Skipped 1 of 5001 samples: not finite")
+        np.testing.assert_allclose(found["XY"].points[:, 2], data.center[2], atol=1e-6)
+        with self.assertRaisesRegex(ValueError, "contour=True needs an array of numbers"):
+            far.scattered.slice("z", contour=True)
         for call, error in ((lambda: data.scattered.slice(plane=pv.Plane()), TypeError),
                             (lambda: data.scattered.slice(offset=1), TypeError),
                             (lambda: data.scattered.slice(contour="all"), ValueError),
@@ -506,8 +526,10 @@ class Probing(unittest.TestCase):
 
     def test_wrong_choices(self):
         data = self.cloud()
+        data["words"] = ["word"] * data.n_points
         for call, error, text in (
                 (lambda: data.scattered.probe([[0, 0, 0]], "plan"), ValueError, 'named "plan".*plane'),
+                (lambda: data.scattered.probe([[0, 0, 0]], ["plane", "words"]), TypeError, '"words" holds no numbers'),
                 (lambda: data.scattered.probe([[0, 0, 0]], "plane", preference="both"), ValueError, "preference"),
                 (lambda: data.scattered.probe([[0, 0, 0]], np.zeros(7)), ValueError, "7 values for a data set"),
                 (lambda: data.scattered.probe(pv.MultiBlock([data])), TypeError, "pass its blocks"),
