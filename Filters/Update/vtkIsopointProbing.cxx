@@ -217,12 +217,17 @@ std::vector<isopoint::Message> vtkIsopointProbing::Describe() const
     messages.push_back(skipped);
   }
   const std::string places = " of " + std::to_string(report.Places) + " points ";
-  if (!report.HasArrays)
+  const bool areUsed = report.Samples.skippedCount() < report.Samples.samples;
+  if (!areUsed && skipped.text.empty() && !report.AreGradients)
+  {
+    messages.push_back({ "no samples", "All samples are excluded. Include some." });
+  }
+  if (!report.HasArrays && report.NotCommon.empty())
   {
     messages.push_back({ "no arrays",
       "The samples have no arrays of numbers, nor has the output. Load arrays in the reader." });
   }
-  if (report.Places > 0 && report.Outside == report.Places && report.IsOutsideLost)
+  if (areUsed && report.Places > 0 && report.Outside == report.Places && report.IsOutsideLost)
   {
     messages.push_back({ "all outside",
       "All " + std::to_string(report.Places) +

@@ -124,9 +124,13 @@ class vtkScatteredProbeFilter(Probing):
         self._add(blocks, {name: (array, values[name], array.data_type if keeps_types else DOUBLE)
                            for name, array in arrays.items()}, are_null)
         is_lost = self._values["MarkBlankPointsAndCells"] or strategy != CLOSEST_POINT
-        return [*self._describe_skipped(samples, "There are no values. Connect samples with finite positions.",
-                                        "Values there are those of the samples around."),
-                *_describe_lacking(has_arrays, are_null if is_lost else are_null[:0]),
+        skipped = self._describe_skipped(samples, "There are no values. Connect samples with finite positions.",
+                                         "Values there are those of the samples around.")
+        if self._counts["SkippedSamples"] == self._counts["Samples"]:
+            is_lost = False
+            skipped = skipped or [_library.Message(
+                "All samples are excluded. Include some.", is_warning=True, cause="no samples")]
+        return [*skipped, *_describe_lacking(has_arrays or len(left_out) > 0, are_null if is_lost else are_null[:0]),
                 *self._describe_flat(kinds, "values are those at the nearest point of it."),
                 *describe_left_out(own, "The output has an array of its own with this name. Rename that of the"
                                    " samples."),

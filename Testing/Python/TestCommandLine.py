@@ -202,7 +202,8 @@ class CommandLine(unittest.TestCase):
         np.testing.assert_array_equal(ply.positions, expected.points)
         np.testing.assert_array_equal(np.column_stack([ply.arrays[f"n{axis}"] for axis in "xyz"]), expected.normals)
         np.testing.assert_array_equal(ply.arrays["velocity:2"], expected.arrays["velocity"][:, 2])
-        np.savez("like.npz", points=POSITIONS, T=VALUES, **{name: VALUES for name in ("nx", "x", "a b", "a_b", "ä", "ö")})
+        np.savez("like.npz", points=POSITIONS, T=VALUES,
+                 **{name: VALUES for name in ("nx", "x", "a b", "a_b", "ä", "ö")})
         status, _, errors = run("contour", "like.npz", "T", 0.3, "-o", "like.ply")
         like = _reading.read_samples("like.ply")
         np.testing.assert_array_equal(like.positions, expected.points)
@@ -254,9 +255,9 @@ class CommandLine(unittest.TestCase):
             ("contour a.npz velocity:w 0.3", 1, 'no component "w": there are 0 to 2'),
             ("contour a.csv T 0.3 --option drop_gap=0", 1, "did you mean drop_gaps"),
             ("contour a.csv T 0.3 --capping --option capping=False", 1, "option is given twice: capping, capping"),
-            *((f"{command} --option {name}=1", 1, f"unknown option {name}: ") for command, names in (
-                ("contour a.csv T 0.3", ("triangles", "isovalues", "progress")), ("slice a.csv", ("normal", "function")))
-              for name in names),
+            *((f"contour a.csv T 0.3 --option {name}=1", 1, f"unknown option {name}: ")
+              for name in ("triangles", "isovalues", "progress")),
+            *((f"slice a.csv --option {name}=1", 1, f"unknown option {name}: ") for name in ("normal", "function")),
             *((f"contour a.npz {name} 1", 1, f'the array "{name}" holds no numbers')
               for name in ("words", "objects", "dates", "nothing")),
             ("contour open.csv T 5", 1, "a quote in line 3 is not closed"),

@@ -496,8 +496,19 @@ class PlaceFilters(FilterTests):
         self.assert_one(self.texts_of(self.probe(flat, places), "MessageEvent"), "At 2 of 2 points", "in a plane")
         self.assert_one(self.texts_of(self.new("Gradient", flat), "MessageEvent"), "gradients have no part across")
         nowhere = cloud_of(np.full((5, 3), np.nan), np.zeros(5))
-        self.assert_one(self.texts_of(self.probe(nowhere, places))[:1],
+        self.assert_one(self.texts_of(self.probe(nowhere, places)),
                         "Skipped 5 of 5 samples: not finite. There are no values.")
+        hidden = with_ghosts(cloud(5), POINTS, [HIDDEN_POINT])
+        for strategy in range(3):
+            self.assert_one(self.texts_of(self.probe(hidden, places, NullPointsStrategy=strategy)),
+                            "All samples are excluded. Include some.")
+        different = blocks_of(*(add(bare, POINTS, name, np.zeros(1000)) for bare, name in (
+            (cloud_of(positions_in(samples)), "a"), (cloud_of(positions_in(samples) + 2), "b"))))
+        for filter_ in (self.probe(different, places), self.new("Line", different), self.new("Grid", different)):
+            texts = observed(filter_)
+            filter_.Update()
+            self.assertEqual(texts["WarningEvent"], [])
+            self.assert_one(texts["MessageEvent"], 'Left out of the output: "a", "b". Only arrays')
         for name in NAMES:
             for data in (vtkPolyData(), blocks_of(vtkPolyData(), vtkTable()), vtkMultiBlockDataSet()):
                 filter_ = self.new(name, data)
