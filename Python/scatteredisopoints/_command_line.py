@@ -77,8 +77,7 @@ def contoured(given: argparse.Namespace, report: Progress) -> Isosurface:
     samples.name = samples.maker.scalars = given.array
     samples.are_float = samples.values.dtype == np.float32
     return loaded(samples, given, report).contour(
-        given.isovalues, triangles=not given.points, progress=part(report, 0.3, 1.0),
-        **options_of(given))
+        given.isovalues, triangles=not given.points, progress=part(report, 0.3, 1.0), **options_of(given))
 
 
 def body(given: argparse.Namespace, report: Progress) -> Isosurface:

@@ -29,9 +29,9 @@ class Cut:
 def by_plane(normal: np.ndarray) -> Cut:
     x, y, z = numbers = tuple(normal.tolist())
 
-    # Not as a product of matrices, whose rounding depends on the library and its threads.
     def at(places: np.ndarray) -> np.ndarray:
         with np.errstate(invalid="ignore"):  # at places that are not finite
+            # Not as a product of matrices, whose rounding depends on the library and its threads.
             return places[:, 0] * x + places[:, 1] * y + places[:, 2] * z
 
     return Cut(at, numbers)

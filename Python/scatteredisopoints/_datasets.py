@@ -186,19 +186,15 @@ def samples_with_arrays(data: Any, names: Sequence[str], associations: tuple[int
     return _gathered(data, block_of, describe)
 
 
-def have_numbers(data: Any) -> bool:
-    """Whether all blocks have arrays of numbers of their points or cells."""
-    return all(any(True for association in (POINT, CELL) for _ in named_arrays(leaf.GetAttributes(association)))
-               for leaf in leaves(data) if leaf.IsA("vtkDataSet") and leaf.GetNumberOfPoints() > 0)
-
-
-def samples_without_values(data: Any, with_arrays: bool) -> DataSamples:
-    """The samples of a data object without values: points or, of a data set with arrays of cells alone, the cells."""
+def samples_without_values(
+        data: Any, with_arrays: bool, associations: tuple[int, ...] = (POINT, CELL)) -> DataSamples:
+    """The samples of a data object without values: of each data set its points or cells, the first of these with
+    arrays of numbers, or else the first."""
 
     def block_of(leaf: Any) -> DataSamples:
-        has_numbers = [any(use != GLOBAL_IDS for _, _, use in named_arrays(leaf.GetAttributes(association)))
-                       for association in (POINT, CELL)]
-        return _block(leaf, CELL if has_numbers == [False, True] else POINT, None)
+        with_numbers = (each for each in associations
+                        if any(use != GLOBAL_IDS for _, _, use in named_arrays(leaf.GetAttributes(each))))
+        return _block(leaf, next(with_numbers, associations[0]), None)
 
     samples = _gathered(data, block_of, lambda _: "The input has no samples. Connect a data set with points.",
                         with_arrays)

@@ -113,11 +113,9 @@ class ScatteredAccessor:
                                      " isovalues")
                 if rng is not None and (np.shape(rng) != (2,) or np.asarray(rng).dtype.kind not in "fiu"):
                     raise ValueError(f"rng cannot be {rng!r}: rng has two values, the least and the greatest isovalue")
-                if rng is not None:
-                    isosurfaces = _spaced(*rng, int(isosurfaces))
-                else:  # any isovalue leads to the message that no sample is in use
-                    are_used = samples.skipped < len(samples)
-                    isosurfaces = _spaced(*samples.range, int(isosurfaces) + 2)[1:-1] if are_used else 0.0
+                # If no sample is in use, any isovalue leads to the message about this.
+                isosurfaces = (_spaced(*np.nan_to_num(samples.range), int(isosurfaces) + 2)[1:-1] if rng is None else
+                               _spaced(*rng, int(isosurfaces)))
             else:
                 isosurfaces = levels_of("isosurfaces", isosurfaces)
             return samples._contour(isosurfaces, triangles, options.pop("arrays", None), threads, progress_bar, options,
@@ -342,12 +340,11 @@ class ScatteredAccessor:
         """
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            slices = pv.MultiBlock({
-                name: self._slice(axis, None if place is None else 3 * [place], None, contour, progress_bar, options)
-                for name, axis, place in (("YZ", "x", x), ("XZ", "y", y), ("XY", "z", z))})
+            slices = {name: self._slice(axis, None if at is None else 3 * [at], None, contour, progress_bar, options)
+                      for name, axis, at in (("YZ", "x", x), ("XZ", "y", y), ("XY", "z", z))}
         for text, category in dict.fromkeys((str(each.message), each.category) for each in caught):
             warnings.warn(text, category, stacklevel=2)
-        return slices
+        return pv.MultiBlock(slices)
 
     def slice_implicit(
         self,
@@ -477,14 +474,13 @@ class ScatteredAccessor:
         names = [scalars] if isinstance(scalars, str) else scalars if are_names(scalars) else []
         if scalars is not None and not names:
             associations = (_datasets.association_of(data, np.shape(scalars)),)
-        is_bare = scalars is None and not needs_arrays and not _datasets.have_numbers(data)
+        is_any = scalars is None and not needs_arrays
 
         def find() -> _datasets.DataSamples:
-            if is_bare and associations[0] == POINT:
-                return _datasets.samples_without_values(data, with_arrays=True)
-            return _datasets.samples_with_arrays(data, names, (CELL,) if is_bare else associations)
+            return (_datasets.samples_without_values(data, True, associations) if is_any else
+                    _datasets.samples_with_arrays(data, names, associations))
 
-        choice = "without values", is_bare, *names, *associations
+        choice = "without values", is_any, *names, *associations
         with _kept_samples(data, choice, find, progress, threads, True) as samples:
             if scalars is None:
                 uses = samples._maker.uses
