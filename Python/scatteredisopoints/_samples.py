@@ -219,9 +219,10 @@ class Samples:
 
         sign: -1 negates them.
         """
-        if self._loaded_key != sign and self._values is not None:
-            numbers = readable("values", as_numpy(self._values))
-            if sign < 0:
+        is_lost = self._loaded_key is None  # by a call that was canceled
+        if self._loaded_key != sign and (self._values is not None or is_lost):
+            numbers = None if self._values is None else readable("values", as_numpy(self._values))
+            if sign < 0 and numbers is not None:
                 is_narrow = numbers.dtype.kind in "iu" and numbers.dtype.itemsize < 8
                 wide = np.int64 if is_narrow else numbers.dtype if numbers.dtype == np.float32 else np.float64
                 numbers = -numbers.astype(wide, copy=False)
@@ -429,7 +430,7 @@ class Samples:
             values[name] = np.empty(shape, array.dtype if is_nearest else np.float64)
             gradients[name] = np.empty((*shape, 3)) if with_gradients else None
         kinds = np.empty(len(points), np.uint8)
-        if leaves_out and self._skipped > 0:
+        if self._loaded_key is None or (leaves_out and self._skipped > 0):
             self._reload_own_values({})
         _library.run_with(
             _library.Callbacks(report), self._extractor, _library.probe, points,

@@ -670,6 +670,13 @@ class Interruptions(unittest.TestCase):
         with mock.patch.object(_library.Callbacks, "_is_over", side_effect=KeyboardInterrupt):
             with self.assertRaises(KeyboardInterrupt):
                 surface.splats()
+        both = samples, Samples(positions)
+        with mock.patch.object(_library.Callbacks, "_is_over", side_effect=KeyboardInterrupt):
+            for each in both:
+                with self.assertRaises(KeyboardInterrupt):
+                    each.body()
+        for each in both:
+            self.assertEqual(each.probe(positions[:2], arrays=values).shape, (2,))
 
     def test_arrays_can_be_canceled(self):
         """Those of the points, and those at the vertices of splats."""
