@@ -27,12 +27,12 @@ void measure(const char* what, isopoint::ProcessGroup& processes, const Work& wo
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
   };
   const double begin = seconds();
-  const isopoint::Traffic former = processes.traffic();
+  const ThreadRanks::Traffic former = ThreadRanks::traffic;
   work();
-  const isopoint::Traffic all = processes.traffic();
+  const ThreadRanks::Traffic& all = ThreadRanks::traffic;
   std::printf("rank %d, %s: %.3f s, %.2f MB sent, %llu exchanges\n", processes.rank(), what,
     seconds() - begin, 1e-6 * static_cast<double>(all.sent - former.sent),
-    static_cast<unsigned long long>(all.rounds - former.rounds));
+    static_cast<unsigned long long>(all.exchanges - former.exchanges));
 }
 
 void extract(

@@ -258,9 +258,9 @@ Message describeUnprojected(const Report& report, OptionNaming naming)
     "No fit holds at " + std::to_string(report.unprojectedPoints) + " of " +
       std::to_string(points) +
       " points: the surface may be rough. Smooth the values if they are noisy. For samples on a"
-      " surface, such as a plane or a shell, set " +
+      " surface, such as a plane or a shell, turn " +
       naming(option::projection.name) +
-      " to None. Samples along lines, such as drill holes, do not determine a surface.",
+      " off. Samples along lines, such as drill holes, do not determine a surface.",
     Message::Warning, Message::PointsWithoutFit };
 }
 
@@ -279,7 +279,7 @@ Message describeCornersApart(const Report& report)
     "Splats do not meet at " + std::to_string(report.cornersApart) + " of " +
       std::to_string(report.innerCorners) +
       " corners: the picture may have holes, since samples are too uneven or too few for splats."
-      " Extract triangles instead: with Scattered Isosurface, in Python with triangles=True.",
+      " Extract triangles instead, by Scattered Isosurface, or the option triangles.",
     Message::Warning, Message::SplatsApart };
 }
 

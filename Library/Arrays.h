@@ -15,8 +15,7 @@
 namespace isopoint
 {
 
-/// Calls visit with a number of an isopoint_type.
-/// @throws UsageError if there is no such type
+/// Calls visit with a number of an isopoint_type, as ArrayReader checked it.
 template <class Visitor>
 decltype(auto) withType(std::int32_t type, const Visitor& visit)
 {
@@ -40,12 +39,8 @@ decltype(auto) withType(std::int32_t type, const Visitor& visit)
       return visit(std::uint32_t{});
     case ISOPOINT_INT64:
       return visit(std::int64_t{});
-    case ISOPOINT_UINT64:
-      return visit(std::uint64_t{});
     default:
-      throw UsageError(
-        "The type of an array, " + std::to_string(type) + ", is unknown. Use an isopoint_type.",
-        UsageError::Array);
+      return visit(std::uint64_t{});
   }
 }
 
@@ -79,6 +74,12 @@ public:
                          std::to_string(array->components) + " components" +
                          (array->data ? "" : " and no data") +
                          ". Pass at least one component, and memory for all tuples.",
+        UsageError::Array);
+    }
+    if (array->type < ISOPOINT_FLOAT || array->type > ISOPOINT_UINT64)
+    {
+      throw UsageError(this->Described + " has the unknown type " + std::to_string(array->type) +
+                         ". Use an isopoint_type.",
         UsageError::Array);
     }
     const std::size_t size = sizeOfType(array->type);
@@ -166,11 +167,11 @@ private:
 inline void requireMemory(const void* memory, std::uint64_t size, const char* results,
   std::size_t count, std::uint64_t bytes)
 {
-  const std::uint64_t given = memory ? size : 0;
-  if (given / bytes < count)
+  if ((memory ? size : 0) / bytes < count)
   {
-    throw UsageError(std::string("The memory for ") + results + " has " + std::to_string(given) +
-                       " bytes. Pass " + std::to_string(count) + " times " + std::to_string(bytes) +
+    throw UsageError(std::string("The memory for ") + results +
+                       (memory ? " has " + std::to_string(size) + " bytes" : " is null") +
+                       ". Pass " + std::to_string(count) + " times " + std::to_string(bytes) +
                        " bytes.",
       UsageError::Array);
   }

@@ -84,10 +84,14 @@ std::vector<ProbedArray> probedArrays(const isopoint_array* arrays, std::int64_t
   const isopoint_probe_result* results, std::size_t sampleCount, std::size_t placeCount,
   const ProbeOptions& options)
 {
-  if (count < 0 || (count > 0 && !(arrays && results)))
+  if (count < 0)
   {
-    throw UsageError("There are not " + std::to_string(count) +
-                     " arrays and results. Pass as many as their count says.");
+    throw UsageError("The number of arrays is " + std::to_string(count) + ". Pass 0 or more.");
+  }
+  if (count > 0)
+  {
+    require(arrays, "pointer to arrays");
+    require(results, "pointer to results");
   }
   std::vector<ProbedArray> probed;
   for (std::int64_t i = 0; i < count; ++i)
@@ -281,12 +285,15 @@ isopoint_status isopoint_probe_neighborhoods(const isopoint_neighborhoods* neigh
     [&]()
     {
       const isopoint::Neighborhoods& found = neighborhoods->found;
-      isopoint::probeNeighborhoods(neighborhoods->execution, found,
-        isopoint::probedArrays(arrays, array_count, results, neighborhoods->sampleCount,
-          found.places.size(), found.options));
+      const auto probed = isopoint::probedArrays(arrays, array_count, results,
+        neighborhoods->sampleCount, found.places.size(), found.options);
       if (flags)
       {
         isopoint::requireMemory(flags, flags_size, "flags", found.kinds.size(), 1);
+      }
+      isopoint::probeNeighborhoods(neighborhoods->execution, found, probed);
+      if (flags)
+      {
         std::copy(found.kinds.begin(), found.kinds.end(), flags);
       }
     });

@@ -27,7 +27,7 @@ public:
     {
       --Count;
       throw UsageError("This process was forked during a call: it cannot contour. Fork between"
-                       " calls, or start processes anew, in Python by the method \"spawn\".",
+                       " calls, or spawn processes instead.",
         UsageError::Fork);
     }
   }

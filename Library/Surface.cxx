@@ -85,6 +85,7 @@ std::vector<T> numbersOf(
 isopoint_surface::Coordinates coordinatesOf(const isopoint_array* points)
 {
   const isopoint::ArrayReader reader(points, "the points");
+  reader.requireFloatingPoint();
   if (reader.type() == ISOPOINT_FLOAT)
   {
     return numbersOf<float>(points, "the points", reader.count(), 3);
@@ -218,7 +219,8 @@ void isopoint_surface::interpolate(
   if (!this->isExtracted)
   {
     throw isopoint::UsageError("A surface made by isopoint_create_surface() has no samples. Extract"
-                               " one by isopoint_extract().");
+                               " one by isopoint_extract().",
+      isopoint::UsageError::Order);
   }
   const isopoint::ArrayReader reader(ofSamples, "the samples");
   reader.require(this->SampleCount, reader.components());
@@ -263,7 +265,7 @@ void isopoint_surface::makeSplatMesh(double scale)
   if (!(scale > 0.0) || !std::isfinite(scale))
   {
     throw isopoint::UsageError(
-      "The scale of splats is " + std::to_string(scale) + ". Pass a number greater than 0.");
+      "The scale of splats is " + std::to_string(scale) + ". Pass a finite number above 0.");
   }
   if ((this->SplatAxes.empty() || this->Normals.empty()) && this->pointCount() > 0)
   {

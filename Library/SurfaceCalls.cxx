@@ -77,16 +77,16 @@ isopoint_status isopoint_join_messages(isopoint_surface* surface, const isopoint
     [&]()
     {
       isopoint::require(other, "other surface");
-      if (surface->report.isovalues != other->report.isovalues)
-      {
-        throw isopoint::UsageError(
-          "The surfaces have different isovalues. Extract them at the same.");
-      }
       if (surface == other || !areSame(surface->options, other->options) || !surface->isExtracted ||
           !other->isExtracted)
       {
         throw isopoint::UsageError(
-          "Messages are joined of two surfaces, extracted with the same options.");
+          "Messages are joined of two surfaces of isopoint_extract() with the same options.");
+      }
+      if (surface->report.isovalues != other->report.isovalues)
+      {
+        throw isopoint::UsageError(
+          "The surfaces have different isovalues. Extract them at the same.");
       }
       isopoint::Report joined = surface->report;
       joined.add(other->report);

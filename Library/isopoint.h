@@ -302,8 +302,8 @@ typedef enum isopoint_place_flag
  * Outside: a place is outside if the 27 nearest samples are on one side of it, or if the nearest one
  * is farther than 0.9 times the distance between this one and the eighth nearest to it. A place at a
  * sample, or within a thousandth of this distance, is inside. Coordinates that are not finite, or
- * whose squared distances overflow, give places outside. Gradients outside are NaN for NUMBER and 0
- * for NEAREST.
+ * whose squared distances overflow, give places outside. Where the number is the value, gradients
+ * are NaN; where the nearest sample gives it, 0.
  *
  * Flat: where samples are in a plane or on a line, results are those at the nearest point of it, and
  * gradients have no part across.
@@ -370,8 +370,8 @@ typedef struct isopoint_weights
 } isopoint_weights;
 
 /* The weights of neighborhoods, computed at the first call, in one thread and without callbacks; not
- * with BLEND, which is not linear in the values. Rows of places outside are empty with NUMBER, and
- * have the nearest sample with NEAREST. Samples whose value is not finite have weights, too. Its
+ * with BLEND, which is not linear in the values. Rows of places outside have the nearest sample with
+ * ISOPOINT_PROBE_OUTSIDE_NEAREST, and are empty otherwise, as at places that are not finite. Samples whose value is not finite have weights, too. Its
  * memory is valid until the neighborhoods are destroyed. */
 ISOPOINT_API isopoint_status isopoint_get_weights(
   isopoint_neighborhoods* neighborhoods, isopoint_weights* weights);
@@ -421,7 +421,7 @@ ISOPOINT_API isopoint_status isopoint_set_surface_callbacks(isopoint_surface* su
 typedef enum isopoint_message_code
 {
   ISOPOINT_MESSAGE_SKIPPED_SAMPLES = 1,    /* some are not finite; not a warning */
-  ISOPOINT_MESSAGE_NO_SAMPLES = 2,         /* all are skipped */
+  ISOPOINT_MESSAGE_NO_SAMPLES = 2,         /* there are none, or all are skipped */
   ISOPOINT_MESSAGE_CONSTANT_VALUES = 3,    /* no surface: all values are the same */
   ISOPOINT_MESSAGE_ISOVALUE_OUTSIDE = 4,   /* no surface: no values are below, or none are above */
   ISOPOINT_MESSAGE_TOO_FEW_SAMPLES = 5,    /* no surface: there are fewer than four */

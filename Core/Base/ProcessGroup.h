@@ -85,14 +85,6 @@ struct FailedElsewhere : std::runtime_error
   }
 };
 
-/// Traffic of a rank since its process group was made.
-struct Traffic
-{
-  std::uint64_t sent = 0;     // bytes to other ranks, without reductions
-  std::uint64_t received = 0; // bytes from other ranks, likewise
-  std::uint64_t rounds = 0;   // exchanges in which any rank sent something
-};
-
 /// The rank whose part contains a number.
 /// @param begins begins of the ranks' parts, ascending from 0; the last end may follow
 /// @param number below the last end
@@ -102,10 +94,10 @@ inline std::size_t rankAt(const std::vector<std::uint64_t>& begins, std::uint64_
     std::upper_bound(begins.begin(), begins.end(), number) - begins.begin() - 1);
 }
 
-/// A process group. Work runs inside runCollectively(); all functions but rank(), size() and
-/// traffic() are collective and are called from there. A rank may throw anywhere. Every collective
-/// function first reduces a status by maximum. If a rank has failed, all others throw here, before
-/// they send any data. The cost is negligible in a group of one rank.
+/// A process group. Work runs inside runCollectively(); all functions but rank() and size() are
+/// collective and are called from there. A rank may throw anywhere. Every collective function first
+/// reduces a status by maximum. If a rank has failed, all others throw here, before they send any
+/// data. The cost is negligible in a group of one rank.
 class ProcessGroup
 {
 public:
@@ -116,7 +108,6 @@ public:
 
   int rank() const { return this->Transport.rank(); }
   int size() const { return this->Transport.size(); }
-  const Traffic& traffic() const { return this->Counted; }
 
   /// Runs work that may call collective functions. It throws on all ranks or on none.
   /// @throws whatever `work` throws; if only another rank's work threw, Aborted or FailedElsewhere
@@ -173,8 +164,7 @@ public:
       from[i] = { &ownSizes[i], sizeof(std::uint64_t) };
       to[i] = { &sizes[i], sizeof(std::uint64_t) };
     }
-    this->reduceStatus();
-    this->Transport.exchange(from, to);
+    this->exchange(from, to);
     std::vector<std::vector<T>> received(count);
     for (std::size_t i = 0; i < count; ++i)
     {
@@ -209,15 +199,6 @@ public:
     const std::vector<OutgoingBytes>& outgoing, const std::vector<IncomingBytes>& incoming)
   {
     this->reduceStatus();
-    for (std::size_t i = 0; i < outgoing.size(); ++i)
-    {
-      if (i != this->index())
-      {
-        this->Counted.sent += outgoing[i].count;
-        this->Counted.received += incoming[i].count;
-      }
-    }
-    ++this->Counted.rounds;
     this->Transport.exchange(outgoing, incoming);
   }
 
@@ -269,7 +250,6 @@ private:
   }
 
   Communicator& Transport;
-  Traffic Counted;
   bool IsOver = false; // all ranks know of the failure
 };
 

@@ -244,7 +244,7 @@ TEST(Messages, PointsThatNoFitMovesAreCountedWhereTheyAreMost)
   const std::string points = std::to_string(filter->GetOutput()->GetNumberOfPoints());
   expectOne(
     warnings, { "No fit", std::to_string(filter->GetNumberOfUnprojectedPoints()) + " of " + points,
-                "Projection" });
+                "turn Projection off" });
   EXPECT_EQ(filter->GetNumberOfExtractedPoints(), filter->GetOutput()->GetNumberOfPoints());
   filter->SetProjection(Isopoints::NO_PROJECTION);
   filter->ComputeSplatsOff();
@@ -261,7 +261,7 @@ TEST(Messages, TrianglesAreTheRemedyWhereSplatsDoNotMeet)
       return Vector{ std::pow(p[0], 6), std::pow(p[1], 6), std::pow(p[2], 6) };
     });
   cloud->GetPoints()->Modified();
-  expectOne(messagesOf(filter), { "Splats", "Scattered Isosurface" });
+  expectOne(messagesOf(filter), { "Splats", "Scattered Isosurface, or the option triangles." });
   filter->SetComputeSplats(false);
   EXPECT_TRUE(messagesOf(filter).empty());
 }

@@ -225,11 +225,11 @@ TEST(Ranks, SendFewerBytesOfNewValuesThanOfSamples)
       const Cloud& piece = pieces[rank];
       isopoint::IsosurfaceExtractor extractor;
       extractor.load<float, float>({}, processes, piece.size(), clouds::readerOf(piece));
-      const std::uint64_t loading = processes.traffic().sent;
+      const std::uint64_t loading = ThreadRanks::traffic.sent;
       const auto replace = [&](const Cloud& cloud)
       { return extractor.replaceValues<float, float>({}, cloud.size(), clouds::readerOf(cloud)); };
       EXPECT_TRUE(replace(ranks::withOtherValues(piece)));
-      EXPECT_LT(processes.traffic().sent - loading, loading / 2);
+      EXPECT_LT(ThreadRanks::traffic.sent - loading, loading / 2);
       // One sample that moves, leaves or changes its type on one rank is enough.
       Cloud moved = piece;
       Cloud fewer = piece;

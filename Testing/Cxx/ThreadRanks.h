@@ -18,6 +18,14 @@
 class ThreadRanks
 {
 public:
+  /// What the rank of the calling thread has exchanged, apart from reductions.
+  struct Traffic
+  {
+    std::uint64_t sent = 0; // bytes to other ranks
+    std::uint64_t exchanges = 0;
+  };
+  inline static thread_local Traffic traffic{};
+
   explicit ThreadRanks(int size)
     : Size(size)
     , Outgoing(static_cast<std::size_t>(size))
@@ -84,8 +92,10 @@ private:
     {
       this->Ranks.await(
         [&]() { this->Ranks.Outgoing[static_cast<std::size_t>(this->Rank)] = &outgoing; });
+      ++traffic.exchanges;
       for (std::size_t from = 0; from < incoming.size(); ++from)
       {
+        traffic.sent += from == static_cast<std::size_t>(this->Rank) ? 0 : outgoing[from].count;
         const isopoint::OutgoingBytes& message =
           this->Ranks.Outgoing[from]->at(static_cast<std::size_t>(this->Rank));
         if (message.count != incoming[from].count)

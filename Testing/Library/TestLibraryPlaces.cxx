@@ -229,12 +229,22 @@ TEST(Library, InvalidProbesAreErrors)
   { expectInvalid(probe(array, places, to, usual), text, ISOPOINT_INVALID_ARRAY); };
   std::vector<double> gradients(299);
   expectTooSmall(
-    { nullptr, 800, nullptr, 0 }, "The memory for values has 0 bytes. Pass 100 times 8 bytes.");
+    { nullptr, 800, nullptr, 0 }, "The memory for values is null. Pass 100 times 8 bytes.");
   expectTooSmall({ numbers.data(), 799, nullptr, 0 }, "The memory for values has 799 bytes");
   expectTooSmall(resultIn(numbers, gradients), "The memory for gradients has 2392 bytes");
   std::uint8_t flag = 0;
-  expectInvalid(isopoint_probe(extractor.get(), &places, &array, 1, &usual, &result, &flag, 99),
-    "The memory for flags has 99 bytes", ISOPOINT_INVALID_ARRAY);
+  isopoint_neighborhoods* neighborhoods = nullptr;
+  ASSERT_EQ(
+    isopoint_find_neighborhoods(extractor.get(), &places, &usual, &neighborhoods), ISOPOINT_OK);
+  numbers.assign(300, -1.0);
+  for (const isopoint_status status :
+    { isopoint_probe(extractor.get(), &places, &array, 1, &usual, &result, &flag, 99),
+      isopoint_probe_neighborhoods(neighborhoods, &array, 1, &result, &flag, 99) })
+  {
+    expectInvalid(status, "The memory for flags has 99 bytes", ISOPOINT_INVALID_ARRAY);
+    EXPECT_EQ(numbers, std::vector<double>(300, -1.0));
+  }
+  isopoint_destroy_neighborhoods(neighborhoods);
   const isopoint_array nowhere{ nullptr, ISOPOINT_DOUBLE, 3, 0, 0, 0 };
   EXPECT_EQ(probe(array, nowhere, { nullptr, 0, nullptr, 0 }, usual), ISOPOINT_OK);
   expectInvalid(probe(array, places, result, probeOptions(5)), "method", ISOPOINT_INVALID_OPTION);
@@ -249,6 +259,8 @@ TEST(Library, InvalidProbesAreErrors)
     ISOPOINT_INVALID_OPTION);
   expectInvalid(
     isopoint_probe(extractor.get(), &places, nullptr, 1, nullptr, &result, nullptr, 0), "arrays");
+  expectInvalid(isopoint_probe(extractor.get(), &places, &array, -1, nullptr, &result, nullptr, 0),
+    "The number of arrays is -1");
   isopoint_surface* surface = nullptr;
   const double isovalue = 0.5;
   expectInvalid(isopoint_extract(extractor.get(), &isovalue, 1, nullptr, &surface),

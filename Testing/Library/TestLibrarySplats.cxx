@@ -73,7 +73,13 @@ TEST(Library, KeptSplatsYieldTheSameMesh)
     "The memory for the result has 4 bytes. Pass ", ISOPOINT_INVALID_ARRAY);
   std::vector<double> values;
   const isopoint_array none = arrayOf(values, ISOPOINT_DOUBLE, 1);
-  expectInvalid(interpolate(again, none, values), "made by isopoint_create_surface()");
+  expectInvalid(
+    interpolate(again, none, values), "made by isopoint_create_surface()", ISOPOINT_INVALID_ORDER);
+  expectInvalid(isopoint_join_messages(again.get(), surface.get()), "isopoint_extract()");
+  const std::vector<std::int32_t> integers{ 0, 0, 0 };
+  const isopoint_array rounded = arrayOf(integers, ISOPOINT_INT32, 3);
+  expectInvalid(isopoint_create_surface(&rounded, &normals, &normals, &normals, &created),
+    "Pass float or double", ISOPOINT_INVALID_ARRAY);
   expectInvalid(kept.create(&created, 1), "normals", ISOPOINT_INVALID_ARRAY);
   expectInvalid(kept.create(nullptr));
   kept.axes.resize(kept.axes.size() - 3);

@@ -1,4 +1,4 @@
-# Installs to a fresh prefix; Python package, plugin and CMake package must work from there alone.
+# Installs all components to a fresh prefix; Python package, plugin and CMake package must work from there alone.
 function (run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result)
   if (NOT result EQUAL 0)
@@ -7,7 +7,9 @@ function (run)
 endfunction ()
 
 file(REMOVE_RECURSE "${PREFIX}")
-run("${CMAKE_COMMAND}" --install "${BUILD_DIR}" --prefix "${PREFIX}")
+foreach (component package python runtime development)
+  run("${CMAKE_COMMAND}" --install "${BUILD_DIR}" --prefix "${PREFIX}" --component ${component})
+endforeach ()
 run("${CMAKE_COMMAND}" -E env "PYTHONPATH=${PREFIX}/${PYTHON_DIR}"
   "${PYTHON}" "${SOURCE_DIR}/Testing/Python/TestContour.py")
 file(REMOVE_RECURSE "${PREFIX}-consumer")
