@@ -44,6 +44,17 @@ isopoint_status statusOf(UsageError::Kinds kind)
   }
 }
 
+/// Keeps the library on Windows when a program unloads it: oneTBB's threads may still run. Linux
+/// always keeps it, by CMakeLists.txt, and macOS, since it has thread_local variables.
+void stayLoaded()
+{
+#ifdef _WIN32
+  HMODULE library = nullptr;
+  GetModuleHandleExW(GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS | GET_MODULE_HANDLE_EX_FLAG_PIN,
+    reinterpret_cast<LPCWSTR>(&stayLoaded), &library);
+#endif
+}
+
 } // namespace
 
 isopoint_status failWithException()
@@ -63,22 +74,6 @@ isopoint_status failWithException()
       return fail(ISOPOINT_INTERNAL_ERROR, failure.text);
   }
 }
-
-namespace
-{
-
-/// Keeps the library on Windows when a program unloads it: oneTBB's threads may still run. Linux
-/// always keeps it, by CMakeLists.txt, and macOS, since it has thread_local variables.
-void stayLoaded()
-{
-#ifdef _WIN32
-  HMODULE library = nullptr;
-  GetModuleHandleExW(GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS | GET_MODULE_HANDLE_EX_FLAG_PIN,
-    reinterpret_cast<LPCWSTR>(&stayLoaded), &library);
-#endif
-}
-
-} // namespace
 
 void setThreads(Execution& execution, std::int32_t threads)
 {

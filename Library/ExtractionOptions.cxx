@@ -13,48 +13,41 @@ namespace isopoint
 namespace
 {
 
-// Programs may leave padding unset, and later versions could put members there.
-static_assert(
+static_assert( // see takeOptions()
   sizeof(isopoint_options) == offsetof(isopoint_options, minimum_piece_size) + sizeof(double));
+static_assert(isSame(FitOrder::Linear, ISOPOINT_PROJECTION_LINEAR) &&
+              isSame(FitOrder::Quadratic, ISOPOINT_PROJECTION_QUADRATIC) &&
+              isSame(FitOrder::Cubic, ISOPOINT_PROJECTION_CUBIC) &&
+              isSame(FitOrder::Crease, ISOPOINT_PROJECTION_CREASE));
+static_assert(isSame(NormalMethod::Automatic, ISOPOINT_NORMALS_AUTOMATIC) &&
+              isSame(NormalMethod::Field, ISOPOINT_NORMALS_FROM_FIELD) &&
+              isSame(NormalMethod::Planes, ISOPOINT_NORMALS_FROM_PLANES));
+static_assert(isSame(Precision::Single, ISOPOINT_PRECISION_SINGLE) &&
+              isSame(Precision::Double, ISOPOINT_PRECISION_DOUBLE) &&
+              isSame(Precision::Default, ISOPOINT_PRECISION_INPUT));
 
-/// Calls visit(member of isopoint_options, member of Options) for each option.
+/// Calls visit(name, member of isopoint_options, member of Options) for each option.
 template <class Visitor>
 void forEachMember(const Visitor& visit)
 {
   using C = isopoint_options;
   using Core = Options;
-  visit(&C::triangles, &Core::triangles);
-  visit(&C::projection, &Core::projection);
-  visit(&C::normal_method, &Core::normalMethod);
-  visit(&C::drop_gaps, &Core::dropGaps);
-  visit(&C::compute_normals, &Core::computeNormals);
-  visit(&C::compute_gradients, &Core::computeGradients);
-  visit(&C::compute_projection_orders, &Core::computeProjectionOrders);
-  visit(&C::output_points_precision, &Core::outputPointsPrecision);
-  visit(&C::number_of_neighbors, &Core::numberOfNeighbors);
-  visit(&C::compute_splats, &Core::computeSplats);
-  visit(&C::angle, &Core::angle);
-  visit(&C::keep_tetrahedra, &Core::keepTetrahedra);
-  visit(&C::regularize, &Core::regularize);
-  visit(&C::keep_hull_slivers, &Core::keepHullSlivers);
-  visit(&C::capping, &Core::capping);
-  visit(&C::minimum_piece_size, &Core::minimumPieceSize);
-}
-
-/// The name of an option that is on or off.
-std::string switchName(bool Options::*value)
-{
-  std::string name =
-    value == &Options::triangles ? "triangles" : "keep_tetrahedra"; // of no property
-  forEveryOption(
-    [&](const auto& option)
-    {
-      if constexpr (std::is_same_v<decltype(option.value), bool Options::*>)
-      {
-        name = option.value == value ? memberName(option.name) : name;
-      }
-    });
-  return name;
+  visit("triangles", &C::triangles, &Core::triangles);
+  visit("projection", &C::projection, &Core::projection);
+  visit("normal_method", &C::normal_method, &Core::normalMethod);
+  visit("drop_gaps", &C::drop_gaps, &Core::dropGaps);
+  visit("compute_normals", &C::compute_normals, &Core::computeNormals);
+  visit("compute_gradients", &C::compute_gradients, &Core::computeGradients);
+  visit("compute_projection_orders", &C::compute_projection_orders, &Core::computeProjectionOrders);
+  visit("output_points_precision", &C::output_points_precision, &Core::outputPointsPrecision);
+  visit("number_of_neighbors", &C::number_of_neighbors, &Core::numberOfNeighbors);
+  visit("compute_splats", &C::compute_splats, &Core::computeSplats);
+  visit("angle", &C::angle, &Core::angle);
+  visit("keep_tetrahedra", &C::keep_tetrahedra, &Core::keepTetrahedra);
+  visit("regularize", &C::regularize, &Core::regularize);
+  visit("keep_hull_slivers", &C::keep_hull_slivers, &Core::keepHullSlivers);
+  visit("capping", &C::capping, &Core::capping);
+  visit("minimum_piece_size", &C::minimum_piece_size, &Core::minimumPieceSize);
 }
 
 } // namespace
@@ -85,7 +78,7 @@ Options optionsFrom(const isopoint_options* given)
   }
   Options options;
   forEachMember(
-    [&](auto member, auto option)
+    [&](const char* name, auto member, auto option)
     {
       using T = std::decay_t<decltype(options.*option)>;
       options.*option = static_cast<T>(all.*member);
@@ -93,7 +86,7 @@ Options optionsFrom(const isopoint_options* given)
       {
         if (all.*member != 0 && all.*member != 1)
         {
-          throw UsageError(switchName(option) + " is " + std::to_string(all.*member) +
+          throw UsageError(std::string(name) + " is " + std::to_string(all.*member) +
                              ". Use 0 for off and 1 for on.",
             UsageError::Option);
         }
@@ -110,7 +103,7 @@ void isopoint_initialize_options(isopoint_options* options, size_t size)
   isopoint_options all{};
   all.size = size;
   const isopoint::Options defaults;
-  isopoint::forEachMember([&](auto member, auto option)
+  isopoint::forEachMember([&](const char*, auto member, auto option)
     { all.*member = static_cast<std::decay_t<decltype(all.*member)>>(defaults.*option); });
   isopoint::giveOptions(all, options, size);
 }

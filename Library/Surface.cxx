@@ -106,7 +106,6 @@ isopoint_surface::isopoint_surface(const isopoint::Execution& making,
   , Isosurfaces(std::move(surfaces))
   , Points(makeCoordinates(isopoint::isSinglePrecision(options, areFloatPositions),
       isopoint::countIsopoints(this->Isosurfaces)))
-  , Splats(making, isopoint::buildSplatMesh({}, 0, {}), this->hasFloatPoints())
 {
   const std::size_t count = isopoint::countIsopoints(this->Isosurfaces);
   this->Isovalues.resize(count);
@@ -151,7 +150,6 @@ isopoint_surface::isopoint_surface(const isopoint::Execution& making, const isop
   , SplatAxes(numbersOf<float>(axes, "the splat axes", this->pointCount(), 3))
   , SplatPolygons(numbersOf<float>(
       polygons, "the splat polygons", this->pointCount(), isopoint::numbersOfSplat))
-  , Splats(making, isopoint::buildSplatMesh({}, 0, {}), this->hasFloatPoints())
 {
 }
 
@@ -187,6 +185,9 @@ isopoint_array isopoint_surface::array(std::int32_t id) const
   {
     this->listEdges();
   }
+  const SplatArrays none(
+    this->execution, isopoint::buildSplatMesh({}, 0, {}), this->hasFloatPoints());
+  const SplatArrays& splats = this->Splats ? *this->Splats : none;
   const std::array<isopoint_array, ISOPOINT_ARRAY_CAPS + 1> arrays{
     asArray(this->Points),
     asArray(this->Isovalues, 1),
@@ -199,10 +200,10 @@ isopoint_array isopoint_surface::array(std::int32_t id) const
     asArray(this->Radii, 1),
     asArray(this->SplatAxes, 3),
     asArray(this->SplatPolygons, static_cast<int>(isopoint::numbersOfSplat)),
-    asArray(this->Splats.vertices),
-    asArray(this->Splats.normals, 3),
-    asArray(this->Splats.points, 1),
-    asArray(this->Splats.triangles, 3),
+    asArray(splats.vertices),
+    asArray(splats.normals, 3),
+    asArray(splats.points, 1),
+    asArray(splats.triangles, 3),
     asArray(this->Caps, 1),
   }; // by isopoint_array_id
   if (id < 0 || static_cast<std::size_t>(id) >= arrays.size())
@@ -297,7 +298,6 @@ void isopoint_surface::makeSplatMesh(double scale)
   const isopoint::Execution making = isopoint::partOf(this->execution, 0.0, 0.9);
   this->Splats = SplatArrays(
     this->execution, isopoint::buildSplatMesh(making, this->pointCount(), fanAt), areFloat);
-  this->HasSplatMesh = true;
   this->execution.progress(1.0);
 }
 
@@ -338,7 +338,7 @@ isopoint_surface::SplatArrays::SplatArrays(
 void isopoint_surface::averageAtSplatVertices(
   const isopoint_array* ofPoints, void* result, std::size_t size) const
 {
-  if (!this->HasSplatMesh)
+  if (!this->Splats)
   {
     throw isopoint::UsageError("There is no splat mesh. Call isopoint_make_splat_mesh() first.",
       isopoint::UsageError::Order);
@@ -347,13 +347,13 @@ void isopoint_surface::averageAtSplatVertices(
   reader.require(this->pointCount(), reader.components());
   reader.requireFloatingPoint();
   const auto components = static_cast<std::size_t>(reader.components());
-  isopoint::requireMemory(result, size, "the result", this->Splats.mesh.vertices.size(),
+  isopoint::requireMemory(result, size, "the result", this->Splats->mesh.vertices.size(),
     components * isopoint::sizeOfType(reader.type()));
   const auto average = [&](auto type)
   {
     using T = decltype(type);
     isopoint::meansAtVertices(
-      this->execution, this->Splats.mesh, components,
+      this->execution, this->Splats->mesh, components,
       [&](std::size_t point, std::size_t i)
       { return static_cast<double>(reader.at<T>(point, static_cast<int>(i))); },
       static_cast<T*>(result));

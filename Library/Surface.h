@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -81,6 +82,5 @@ private:
   mutable std::vector<std::int64_t> Edges;
   mutable std::vector<double> EdgeParameters;
 
-  bool HasSplatMesh = false;
-  SplatArrays Splats; // empty until makeSplatMesh()
+  std::optional<SplatArrays> Splats; // after makeSplatMesh()
 };

@@ -3,6 +3,7 @@
 #include "Library/Calls.h"
 #include "Library/ExtractionOptions.h"
 #include "Library/Surface.h"
+#include "Library/VersionedOptions.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -28,6 +29,21 @@ isopoint_status isopoint_set_surface_callbacks(isopoint_surface* surface,
 
 namespace
 {
+
+using isopoint::isSame;
+using isopoint::Message;
+static_assert(isSame(Message::SkippedSamples, ISOPOINT_MESSAGE_SKIPPED_SAMPLES) &&
+              isSame(Message::NoSamples, ISOPOINT_MESSAGE_NO_SAMPLES) &&
+              isSame(Message::ConstantValues, ISOPOINT_MESSAGE_CONSTANT_VALUES) &&
+              isSame(Message::IsovalueOutside, ISOPOINT_MESSAGE_ISOVALUE_OUTSIDE) &&
+              isSame(Message::TooFewSamples, ISOPOINT_MESSAGE_TOO_FEW_SAMPLES) &&
+              isSame(Message::AllInGaps, ISOPOINT_MESSAGE_ALL_IN_GAPS) &&
+              isSame(Message::NoCrossing, ISOPOINT_MESSAGE_NO_CROSSING) &&
+              isSame(Message::PointsWithoutFit, ISOPOINT_MESSAGE_POINTS_WITHOUT_FIT) &&
+              isSame(Message::SplatsApart, ISOPOINT_MESSAGE_SPLATS_APART) &&
+              isSame(Message::BeyondFloat, ISOPOINT_MESSAGE_BEYOND_FLOAT) &&
+              isSame(Message::NoIsovalues, ISOPOINT_MESSAGE_NO_ISOVALUES) &&
+              isSame(Message::OnlyAtSamples, ISOPOINT_MESSAGE_ONLY_AT_SAMPLES));
 
 /// Whether options have the same effect.
 bool areSame(const isopoint::Options& first, const isopoint::Options& second)

@@ -13,8 +13,16 @@
 namespace isopoint
 {
 
+/// Whether an enumerator of the core has the number of one of C, so that casts convert them.
+template <class Core, class C>
+constexpr bool isSame(Core core, C c)
+{
+  return static_cast<int>(core) == static_cast<int>(c);
+}
+
 /// Takes over options of a program that was compiled against any version 1.x: members that it does
-/// not know keep their values, and members that this version does not know have to be 0.
+/// not know keep their values, and members that this version does not know have to be 0. Options
+/// end without padding: programs may leave it unset, and later versions could put members there.
 /// @param sizeOf1_0 the size of the options in version 1.0, whose members every program knows
 /// @param initialize the function that sets them up, for messages
 /// @param options in: the defaults of this version

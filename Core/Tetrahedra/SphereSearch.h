@@ -207,14 +207,14 @@ private:
     {
       return false;
     }
-    if (node.isSplit() && this->isLong() && !this->mayReachSamples(nodeIndex, shape))
-    {
-      this->Marks.set(nodeIndex, nodemarks::missed);
-      return false;
-    }
     if (!node.isSplit())
     {
       return this->visitEnd(nodeIndex, shape);
+    }
+    if (this->isLong() && !this->mayReachSamples(nodeIndex, shape))
+    {
+      this->Marks.set(nodeIndex, nodemarks::missed);
+      return false;
     }
     const bool isUpperFirst = shape.isAbove(node.axis, node.plane);
     // The bounds of the nearer child are those of the node.

@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -108,6 +108,20 @@ TEST(Library, ResultsDependOnNeitherThreadsNorWhatWasExtractedBefore)
     EXPECT_EQ(bytesOf(one.extract({ 0.7, 0.5 }, options)),
       bytesOf(many.extract({ 0.5, 0.7, 0.5 }, options)));
   }
+}
+
+TEST(Library, SurfacesOutliveTheirExtractor)
+{
+  const Cloud cloud;
+  auto extractor = std::make_unique<Extractor>(cloud);
+  const Surface surface = extractor->extract();
+  const std::string bytes = bytesOf(surface);
+  extractor.reset();
+  EXPECT_EQ(bytesOf(surface), bytes);
+  const isopoint_array values = cloud.valueArray();
+  std::vector<double> result(numbersOf<double>(surface, ISOPOINT_ARRAY_ISOVALUES).size());
+  ASSERT_EQ(interpolate(surface, values, result), ISOPOINT_OK);
+  ASSERT_EQ(isopoint_make_splat_mesh(surface.get(), 1.0), ISOPOINT_OK);
 }
 
 TEST(Library, StridesMayBeAnyEvenNegative)

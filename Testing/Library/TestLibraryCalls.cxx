@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <functional>
 #include <limits>
@@ -143,8 +145,7 @@ TEST(Library, InvalidCallsAreErrors)
 TEST(Library, InvalidArraysAreErrorsAndKeepTheSamples)
 {
   const Cloud cloud;
-  const std::vector<
-    std::pair<std::function<void(isopoint_array&, isopoint_array&)>, const char*>>
+  const std::vector<std::pair<std::function<void(isopoint_array&, isopoint_array&)>, const char*>>
     changes{
       { [](auto& positions, auto&) { positions.type = 77; }, "positions has the unknown type 77" },
       { [](auto& positions, auto&) { positions.type = ISOPOINT_INT32; }, "positions" },
@@ -339,7 +340,6 @@ TEST(Library, SurfacesHaveTheirOwnCallbacksAndThreads)
   expectInvalid(isopoint_set_surface_callbacks(nullptr, nullptr, nullptr, nullptr));
 }
 
-// Programs show a message once while its cause lasts, although its figures change.
 TEST(Library, TwoExtractorsWorkOnTwoThreads)
 {
   const Cloud cloud(20000);

@@ -4,27 +4,10 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <limits>
-#include <memory>
-#include <string>
 #include <vector>
 
 using namespace librarytesting;
-
-TEST(Library, SurfacesOutliveTheirExtractor)
-{
-  const Cloud cloud;
-  auto extractor = std::make_unique<Extractor>(cloud);
-  const Surface surface = extractor->extract();
-  const std::string bytes = bytesOf(surface);
-  extractor.reset();
-  EXPECT_EQ(bytesOf(surface), bytes);
-  const isopoint_array values = cloud.valueArray();
-  std::vector<double> result(numbersOf<double>(surface, ISOPOINT_ARRAY_ISOVALUES).size());
-  ASSERT_EQ(interpolate(surface, values, result), ISOPOINT_OK);
-  ASSERT_EQ(isopoint_make_splat_mesh(surface.get(), 1.0), ISOPOINT_OK);
-}
 
 // A field that is the same at all points is the same at all vertices; one that differs lies between
 // those of its points.
