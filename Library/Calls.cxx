@@ -96,16 +96,16 @@ void setThreads(Execution& execution, std::int32_t threads)
 }
 
 void setCallbacks(Execution& execution, isopoint_progress_callback progress,
-  isopoint_cancel_callback cancels, void* user)
+  isopoint_cancel_callback isCanceled, void* user)
 {
   Execution chosen;
   if (progress)
   {
     chosen.progress = [progress, user](double fraction) { progress(user, fraction); };
   }
-  if (cancels)
+  if (isCanceled)
   {
-    chosen.aborted = [cancels, user]() { return cancels(user) != 0; };
+    chosen.aborted = [isCanceled, user]() { return isCanceled(user) != 0; };
   }
   execution.progress = chosen.progress;
   execution.aborted = chosen.aborted;

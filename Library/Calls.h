@@ -78,8 +78,8 @@ isopoint_status runOn(const void* object, const char* name, const Call& call)
 /// @throws UsageError if it is negative
 void setThreads(Execution& execution, std::int32_t threads);
 
-/// Sets the callbacks of an execution. @param progress, cancels may be null
+/// Sets the callbacks of an execution. @param progress, isCanceled may be null
 void setCallbacks(Execution& execution, isopoint_progress_callback progress,
-  isopoint_cancel_callback cancels, void* user);
+  isopoint_cancel_callback isCanceled, void* user);
 
 } // namespace isopoint

@@ -34,10 +34,10 @@ isopoint_status isopoint_set_extractor_threads(isopoint_extractor* extractor, in
 }
 
 isopoint_status isopoint_set_extractor_callbacks(isopoint_extractor* extractor,
-  isopoint_progress_callback progress, isopoint_cancel_callback cancels, void* user)
+  isopoint_progress_callback progress, isopoint_cancel_callback is_canceled, void* user)
 {
   return isopoint::runOn(extractor, "extractor",
-    [&]() { isopoint::setCallbacks(extractor->Execution, progress, cancels, user); });
+    [&]() { isopoint::setCallbacks(extractor->Execution, progress, is_canceled, user); });
 }
 
 isopoint_status isopoint_set_value_name(isopoint_extractor* extractor, const char* name)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What isopoint.h declares for places.
-#include "Core/Contour.h"
 #include "Library/Arrays.h"
 #include "Library/Calls.h"
 #include "Library/Extractor.h"
@@ -68,10 +67,10 @@ isopoint_status isopoint_set_neighborhoods_threads(
 }
 
 isopoint_status isopoint_set_neighborhoods_callbacks(isopoint_neighborhoods* neighborhoods,
-  isopoint_progress_callback progress, isopoint_cancel_callback cancels, void* user)
+  isopoint_progress_callback progress, isopoint_cancel_callback is_canceled, void* user)
 {
   return isopoint::runOn(neighborhoods, "neighborhoods",
-    [&]() { isopoint::setCallbacks(neighborhoods->execution, progress, cancels, user); });
+    [&]() { isopoint::setCallbacks(neighborhoods->execution, progress, is_canceled, user); });
 }
 
 isopoint_status isopoint_probe_neighborhoods(const isopoint_neighborhoods* neighborhoods,

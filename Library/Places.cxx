@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "Library/Places.h"
 
+#include "Core/Contour.h"
 #include "Core/Failure.h"
 #include "Library/Arrays.h"
 #include "Library/Calls.h"

@@ -21,10 +21,10 @@ isopoint_status isopoint_set_surface_threads(isopoint_surface* surface, int32_t 
 }
 
 isopoint_status isopoint_set_surface_callbacks(isopoint_surface* surface,
-  isopoint_progress_callback progress, isopoint_cancel_callback cancels, void* user)
+  isopoint_progress_callback progress, isopoint_cancel_callback is_canceled, void* user)
 {
   return isopoint::runOn(surface, "surface",
-    [&]() { isopoint::setCallbacks(surface->execution, progress, cancels, user); });
+    [&]() { isopoint::setCallbacks(surface->execution, progress, is_canceled, user); });
 }
 
 namespace

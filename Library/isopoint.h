@@ -24,7 +24,8 @@
  * Threads: use each extractor, surface and isopoint_neighborhoods on one thread at a time. Different
  * objects, also an extractor and what it made, may be used on different threads at the same time.
  * Results do not depend on the number of threads. A process forked from one that used several
- * threads uses one. In a process forked during a call, later calls fail that could wait for locks.
+ * threads uses one. In a process forked while a call was running, later calls return ISOPOINT_FORKED,
+ * because they could deadlock.
  *
  * Errors: functions that can fail return an isopoint_status, and isopoint_get_error() returns the
  * cause and the remedy. Pointers to objects are written only on success. Lack of memory is an error
@@ -147,8 +148,8 @@ typedef enum isopoint_precision
  * docs/properties.md has all details. */
 typedef struct isopoint_options
 {
-  /* All options have to be within their ranges; those of points have no effect on triangles, and
-   * the other way round. */
+  /* Options have to be within their ranges, even those that have no effect: those of points on
+   * triangles, and those of triangles on points. */
   uint64_t size;                     /* of this struct, in bytes */
   int32_t triangles;                 /* 0: points; 1: triangles. Default: 0 */
   int32_t projection;                /* an isopoint_projection: how points move. Default: CUBIC */
@@ -174,9 +175,9 @@ typedef struct isopoint_options
   /* Triangles only: whether the surface is that of the body of the samples at or above the isovalue,
    * closed by caps where the samples end. Not with projection CREASE. */
   int32_t capping; /* Default: 0 */
-  /* Triangles only: connected components with less than this share of the area of an isovalue's
-   * largest one, such as droplets, are left out. With capping a bubble, whose volume is negative, is
-   * left out only with the component around it. From 0 to 1. */
+  /* Triangles only: leaves out connected components, such as droplets, with less than this share of
+   * the area of the isovalue's largest one. With capping, a bubble (of negative volume) is left out
+   * only together with the component around it. From 0 to 1. */
   double minimum_piece_size; /* Default: 0 */
 } isopoint_options;
 
@@ -200,9 +201,10 @@ ISOPOINT_API void isopoint_destroy_extractor(isopoint_extractor* extractor);
  * valid until the next call fails. */
 ISOPOINT_API const char* isopoint_get_error(void);
 
-/* Sets the maximum number of threads. 0, the default, and excessive numbers stand for all available
- * cores: those of the process's affinity mask, within its container's quota, shared with processes
- * that an MPI launcher started on this machine. Without oneTBB, or if it fails, one thread runs. */
+/* Sets the maximum number of threads. 0 (the default) means all available cores. Larger numbers are
+ * reduced to that. Available are the cores of the process's affinity mask, within its container's
+ * quota; processes that an MPI launcher started on this machine share them. Without oneTBB, or if it
+ * fails, calls run on one thread. */
 ISOPOINT_API isopoint_status isopoint_set_extractor_threads(
   isopoint_extractor* extractor, int32_t threads);
 
@@ -217,7 +219,7 @@ typedef int (*isopoint_cancel_callback)(void* user);
  * default. They run on the thread of the call, must not use its object, and have to return, not by
  * exceptions or longjmp(). */
 ISOPOINT_API isopoint_status isopoint_set_extractor_callbacks(isopoint_extractor* extractor,
-  isopoint_progress_callback progress, isopoint_cancel_callback cancels, void* user);
+  isopoint_progress_callback progress, isopoint_cancel_callback is_canceled, void* user);
 
 /* Sets the name of the values, such as "temperature", for messages and their causes. It is copied.
  * @param name in UTF-8; null or "", the default: messages say "the array" */
@@ -229,9 +231,10 @@ ISOPOINT_API isopoint_status isopoint_set_value_name(
  * a later time step takes a fraction of the time.
  *
  * Samples with a non-finite position or value are skipped; see isopoint_get_message(). Coincident
- * samples count as one, with the mean value. 64-bit integers are rounded to double. Integers are
- * taken to be rounded, with an error of the standard deviation 1 / sqrt(12), which fits ignore. If
- * an array cannot be used, the extractor keeps its former samples; after other errors it has none.
+ * samples count as one, with the mean value. 64-bit integers are rounded to double. Integer values
+ * are assumed to be rounded: their standard error is 1/sqrt(12). Fits do not try to resolve smaller
+ * differences. If an array cannot be used, the extractor keeps its former samples; after other errors
+ * it has none.
  * O(n)
  * @param positions of type float or double, three components
  * @param values of any type, one component, as many as positions; null if there is nothing to extract
@@ -281,12 +284,12 @@ ISOPOINT_API void isopoint_initialize_probe_options(isopoint_probe_options* opti
 /* Memory for the results of one array. */
 typedef struct isopoint_probe_result
 {
-  /* One tuple per place, with the components of the array: double, or the type of the array with
-   * NEAREST. */
+  /* One tuple per place, with the components of the array: double, or with ISOPOINT_PROBE_NEAREST the
+   * type of the array. */
   void* values;
-  uint64_t values_size; /* in bytes */
-  double* gradients; /* null, or three numbers for each component of each place; not with NEAREST */
-  uint64_t gradients_size; /* in bytes */
+  size_t values_size; /* in bytes */
+  double* gradients; /* null, or three numbers for each component of each place; null for NEAREST */
+  size_t gradients_size; /* in bytes */
 } isopoint_probe_result;
 
 typedef enum isopoint_place_flag
@@ -299,25 +302,26 @@ typedef enum isopoint_place_flag
  * and weights are computed once for all arrays. The values of isopoint_set_samples() take no part,
  * but samples that it skipped, also for their values, do not exist: pass null values to keep them.
  *
- * Outside: a place is outside if the 27 nearest samples are on one side of it, or if the nearest one
- * is farther than 0.9 times the distance between this one and the eighth nearest to it. A place at a
- * sample, or within a thousandth of this distance, is inside. Coordinates that are not finite, or
- * whose squared distances overflow, give places outside. Where the number is the value, gradients
+ * Outside: a place is outside if all 27 nearest samples lie on one side of it, or if its nearest
+ * sample s is farther than 0.9 d, d being the distance from s to the eighth nearest sample of the
+ * place. Within 0.001 d of s it is inside. Places whose coordinates are not finite, or whose squared
+ * distances overflow, are outside. Where the number is the value, gradients
  * are NaN; where the nearest sample gives it, 0.
  *
  * Flat: where samples are in a plane or on a line, results are those at the nearest point of it, and
  * gradients have no part across.
  *
- * Missing values: a sample without a finite value in an array is ignored for this array alone, so a
- * place may be outside for one array and inside for another. If none of the fitted samples (64 with
- * BLEND, 48 with CUBIC, 27 with QUADRATIC and NEAREST, 13 with AFFINE) has a value, the array gets
- * the number, whatever `outside` says. Coincident samples count as one, with the mean value; NEAREST
- * takes the first that has one.
+ * Missing values: samples whose value in an array is not finite are ignored for that array only, so
+ * a place can be outside for one array and inside for another. If none of the samples considered has
+ * a value (64 with ISOPOINT_PROBE_BLEND, 48 with CUBIC, 27 with QUADRATIC and NEAREST, 13 with
+ * AFFINE), the array gets `outside_number`, whatever `outside` says. Coincident samples count as one,
+ * with the mean value; ISOPOINT_PROBE_NEAREST takes the first one that has a value.
  *
- * Components: BLEND fits all components of an array alike, so that turned vectors give turned
- * results. Its values exceed the range of the samples around only at extrema that these show.
- * Integers are taken to be rounded. With NEAREST they get the number without its fraction, or 0 if
- * their type does not hold it.
+ * Components: ISOPOINT_PROBE_BLEND fits all components of an array alike, so that turned vectors
+ * give turned results. Its values exceed the range of the samples around only at extrema that these
+ * show.
+ * Integers are assumed to be rounded. With ISOPOINT_PROBE_NEAREST they get `outside_number` without
+ * its fraction, or 0 if their type cannot hold it.
  *
  * Cost: O(log n) for each place after O(n) for the first, except where very many samples have the
  * same distance.
@@ -333,8 +337,9 @@ ISOPOINT_API isopoint_status isopoint_probe(isopoint_extractor* extractor,
   size_t flags_size);
 
 /* The samples around places, kept so that later arrays, such as those of other time steps, cost only
- * the products with weights; with BLEND, the fits. Takes 0.3 kB a place with BLEND, up to 1.7 kB with
- * other methods, and memory for all samples around; twice as much while they are found. */
+ * the products with weights; with ISOPOINT_PROBE_BLEND, the fits. Takes 0.3 kB a place with
+ * ISOPOINT_PROBE_BLEND, up to 1.7 kB with other methods, and memory for all samples around; twice as
+ * much while they are found. */
 typedef struct isopoint_neighborhoods isopoint_neighborhoods;
 
 /* Finds the samples around places. Parameters as isopoint_probe().
@@ -351,7 +356,7 @@ ISOPOINT_API isopoint_status isopoint_set_neighborhoods_threads(
   isopoint_neighborhoods* neighborhoods, int32_t threads);
 ISOPOINT_API isopoint_status isopoint_set_neighborhoods_callbacks(
   isopoint_neighborhoods* neighborhoods, isopoint_progress_callback progress,
-  isopoint_cancel_callback cancels, void* user);
+  isopoint_cancel_callback is_canceled, void* user);
 
 /* isopoint_probe() for the places of neighborhoods, with the same results. */
 ISOPOINT_API isopoint_status isopoint_probe_neighborhoods(
@@ -359,7 +364,8 @@ ISOPOINT_API isopoint_status isopoint_probe_neighborhoods(
   const isopoint_probe_result* results, uint8_t* flags, size_t flags_size);
 
 /* Weights of samples: a sparse matrix with a row for each place, in compressed rows. Its product
- * with an array is the value at each place. Coincident samples share a weight, except with NEAREST. */
+ * with an array is the value at each place. Coincident samples share a weight, except with
+ * ISOPOINT_PROBE_NEAREST. */
 typedef struct isopoint_weights
 {
   int64_t row_count;
@@ -370,9 +376,10 @@ typedef struct isopoint_weights
 } isopoint_weights;
 
 /* The weights of neighborhoods, computed at the first call, in one thread and without callbacks; not
- * with BLEND, which is not linear in the values. Rows of places outside have the nearest sample with
- * ISOPOINT_PROBE_OUTSIDE_NEAREST, and are empty otherwise, as at places that are not finite. Samples whose value is not finite have weights, too. Its
- * memory is valid until the neighborhoods are destroyed. */
+ * with ISOPOINT_PROBE_BLEND, which is not linear in the values. Rows of places outside have the
+ * nearest sample with ISOPOINT_PROBE_OUTSIDE_NEAREST, and are empty otherwise, or if the place is not
+ * finite. Samples whose value is not finite have weights, too. The memory is valid until the
+ * neighborhoods are destroyed. */
 ISOPOINT_API isopoint_status isopoint_get_weights(
   isopoint_neighborhoods* neighborhoods, isopoint_weights* weights);
 
@@ -393,9 +400,9 @@ ISOPOINT_API void isopoint_destroy_neighborhoods(isopoint_neighborhoods* neighbo
  * Slices: to slice samples along a plane or another implicit function, pass the function's values at
  * the samples, as double, to isopoint_set_samples(), and extract triangles without projection and
  * normals, but with keep_hull_slivers. The function of a plane is dot(position, normal): to move the
- * plane along its normal, change the isovalue. Then isopoint_probe() with EXTRAPOLATE gives all
- * arrays at the points by fits, also at rims, where slivers on the convex hull have edges that are
- * far too long for isopoint_interpolate().
+ * plane along its normal, change the isovalue. Interpolate arrays at the points by isopoint_probe()
+ * with ISOPOINT_PROBE_OUTSIDE_EXTRAPOLATE: isopoint_interpolate() is inaccurate at rims, because
+ * edges of slivers on the convex hull are long.
  *
  * Bodies: for the closed surface of all samples pass any values, such as zeros, and extract triangles
  * without projection and normals, but with capping, at the isovalue -INFINITY. */
@@ -413,7 +420,7 @@ ISOPOINT_API void isopoint_destroy_surface(isopoint_surface* surface);
 ISOPOINT_API isopoint_status isopoint_set_surface_threads(
   isopoint_surface* surface, int32_t threads);
 ISOPOINT_API isopoint_status isopoint_set_surface_callbacks(isopoint_surface* surface,
-  isopoint_progress_callback progress, isopoint_cancel_callback cancels, void* user);
+  isopoint_progress_callback progress, isopoint_cancel_callback is_canceled, void* user);
 
 /* What a message is about. A surface with keep_hull_slivers and without capping is a slice; one with
  * capping at the isovalue -INFINITY alone is a body. Messages name each isovalue without a surface;

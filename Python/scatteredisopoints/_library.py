@@ -87,8 +87,8 @@ class OutputArray:
 class Probed(ctypes.Structure):
     """isopoint_probe_result"""
 
-    _fields_ = [("values", c_void_p), ("values_size", c_uint64), ("gradients", POINTER(c_double)),
-                ("gradients_size", c_uint64)]
+    _fields_ = [("values", c_void_p), ("values_size", c_size_t), ("gradients", POINTER(c_double)),
+                ("gradients_size", c_size_t)]
 
 
 class ProbeOutputs:

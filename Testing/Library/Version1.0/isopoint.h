@@ -109,7 +109,7 @@ ISOPOINT_API isopoint_status isopoint_set_extractor_threads(
 typedef void (*isopoint_progress_callback)(void* user, double fraction);
 typedef int (*isopoint_cancel_callback)(void* user);
 ISOPOINT_API isopoint_status isopoint_set_extractor_callbacks(isopoint_extractor* extractor,
-  isopoint_progress_callback progress, isopoint_cancel_callback cancels, void* user);
+  isopoint_progress_callback progress, isopoint_cancel_callback is_canceled, void* user);
 ISOPOINT_API isopoint_status isopoint_set_value_name(
   isopoint_extractor* extractor, const char* name);
 ISOPOINT_API isopoint_status isopoint_set_samples(isopoint_extractor* extractor,
@@ -142,9 +142,9 @@ ISOPOINT_API void isopoint_initialize_probe_options(isopoint_probe_options* opti
 typedef struct isopoint_probe_result
 {
   void* values;
-  uint64_t values_size;
+  size_t values_size;
   double* gradients;
-  uint64_t gradients_size;
+  size_t gradients_size;
 } isopoint_probe_result;
 typedef enum isopoint_place_flag
 {
@@ -163,7 +163,7 @@ ISOPOINT_API isopoint_status isopoint_set_neighborhoods_threads(
   isopoint_neighborhoods* neighborhoods, int32_t threads);
 ISOPOINT_API isopoint_status isopoint_set_neighborhoods_callbacks(
   isopoint_neighborhoods* neighborhoods, isopoint_progress_callback progress,
-  isopoint_cancel_callback cancels, void* user);
+  isopoint_cancel_callback is_canceled, void* user);
 ISOPOINT_API isopoint_status isopoint_probe_neighborhoods(
   const isopoint_neighborhoods* neighborhoods, const isopoint_array* arrays, int64_t array_count,
   const isopoint_probe_result* results, uint8_t* flags, size_t flags_size);
@@ -185,7 +185,7 @@ ISOPOINT_API void isopoint_destroy_surface(isopoint_surface* surface);
 ISOPOINT_API isopoint_status isopoint_set_surface_threads(
   isopoint_surface* surface, int32_t threads);
 ISOPOINT_API isopoint_status isopoint_set_surface_callbacks(isopoint_surface* surface,
-  isopoint_progress_callback progress, isopoint_cancel_callback cancels, void* user);
+  isopoint_progress_callback progress, isopoint_cancel_callback is_canceled, void* user);
 typedef enum isopoint_message_code
 {
   ISOPOINT_MESSAGE_SKIPPED_SAMPLES = 1,
