@@ -28,9 +28,8 @@
 namespace isopoint
 {
 
-/// The number of rings of ghost isopoints around a rank's own (docs/ranks.md): if splats of the
-/// second ring are visible, so are the splats that they overlap. With shapes, splatRings replace
-/// it.
+/// Rings of ghost isopoints per rank (docs/ranks.md). Five suffice for splats of the first two rings
+/// to be drawn completely. If shapes are computed, splatRings is used instead.
 inline constexpr int pointGhostRings = 5;
 
 /// Some isopoints, with their splats. @throws std::bad_alloc, Aborted

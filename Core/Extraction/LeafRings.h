@@ -33,9 +33,9 @@ public:
     this->Neighbors.push_back({ offset, lengthOf(offset), this->Neighbors.size() });
   }
 
-  /// The smaller of two distances: the one within which about two fifths of the sample and its
-  /// neighbors lie, and 1.2 times the one at which the neighbors span space. The farthest may be
-  /// across a void; the nearest may all be on a line or in a slice with the sample. O(n log n)
+  /// min(a, 1.2 b): a is the distance of the neighbor at 2/5 of the sorted list (ignores far ones
+  /// across a void); b is the distance at which the neighbors first span space (ignores near ones on
+  /// a line or plane). O(n log n)
   double spacing()
   {
     std::sort(this->Neighbors.begin(), this->Neighbors.end(),

@@ -199,9 +199,8 @@ private:
   double Sums[size][size][size];
 };
 
-/// Fades out coefficients that samples hardly determine, so that results are continuous where
-/// samples begin to: pivots are divided by a number that falls to 0, which draws coefficients
-/// towards 0 (a ridge).
+/// Fades out coefficients that the samples barely determine. Weak pivots are enlarged (a ridge), so
+/// the coefficients go to 0 continuously.
 struct Fading
 {
   double determined; // from this share of its diagonal element on, a pivot counts in full

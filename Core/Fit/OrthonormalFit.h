@@ -256,8 +256,8 @@ private:
   }
 
   static constexpr std::size_t size = coefficientCount(Degree);
-  /// A sample that alone determines a coefficient has no residual: its difference from the mean
-  /// replaces it.
+  /// A sample that alone determines a coefficient has leverage 1 and residual 0. Its difference from
+  /// the mean replaces residual / rest.
   static constexpr double leastRest = 1e-3;
 
   FrameSamples Turned; // to the axes of thin samples
@@ -265,8 +265,8 @@ private:
   std::array<Numbers, size> Basis;
   std::array<Lanes, size> AtPlace; // value and gradient of each polynomial
   Numbers Weights;
-  Numbers Rests; // 1 less the share of a sample in its own fit
-  Numbers Loose; // the least rest less this, if that is positive
+  Numbers Rests; // max(rest, leastRest), rest being 1 - leverage
+  Numbers Loose; // max(0, leastRest - rest)
   bool HasLoose = false;
   double ValueEffect = 0.0;
   double GradientEffect = 0.0;

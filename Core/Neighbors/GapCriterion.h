@@ -46,7 +46,7 @@ public:
   /// @param ratio of the edge's length to that of its part across the gap, at least 1
   static GapCriterion strong(double ratio = 1.0) { return { 4.0 * ratio, 3 }; }
 
-  /// The criterion whose dense ends have samples behind them, within twice the edge's length.
+  /// Its dense ends have at least two samples behind them within twice the edge's length.
   static GapCriterion beyond() { return { 0.5, 2 }; }
 
   /// Whether the edge between two samples is rejected. Symmetric. Independent of tree refinement.

@@ -3,7 +3,6 @@
 
 #include <Eigen/Eigenvalues>
 
-#include <cmath>
 #include <optional>
 
 namespace isopoint

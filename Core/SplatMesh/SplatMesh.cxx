@@ -2,6 +2,7 @@
 #include "Core/SplatMesh/SplatMesh.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <utility>
 

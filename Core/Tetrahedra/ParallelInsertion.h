@@ -81,8 +81,8 @@ private:
   std::size_t* Reads; // counted by all copies
 };
 
-/// A lower bound on the cells that this thread can make before CGAL allocates memory. CGAL keeps a
-/// list of free cells, for each thread if Concurrency is parallel.
+/// A lower bound on the cells that this thread can make before CGAL allocates memory. CGAL reuses
+/// freed cells; in parallel insertions each thread has its own.
 inline thread_local std::ptrdiff_t freeCells = 0;
 
 /// Called by this thread after every few thousand cells that it frees; must not throw.

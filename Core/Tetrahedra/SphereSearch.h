@@ -27,10 +27,10 @@ namespace nodemarks
 /// The samples of this leaf are a vertex.
 inline constexpr std::uint8_t inserted = 1;
 
-/// The sphere of a crossing cell may reach the region of this leaf or small unsplit node.
+/// A search has reached this leaf or small unsplit node: a crossing cell's sphere may meet its region.
 inline constexpr std::uint8_t reached = 2;
 
-/// Such a sphere may reach the region of this node, but needs none of its samples.
+/// A search has skipped this node: such a sphere may meet its region, but holds none of its samples.
 inline constexpr std::uint8_t missed = 4;
 
 } // namespace nodemarks

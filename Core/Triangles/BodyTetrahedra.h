@@ -11,7 +11,6 @@
 #include "Core/Triangles/TetrahedronEdges.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>

@@ -6,7 +6,6 @@
 #include "Core/Triangles/ConnectedVertices.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace isopoint
 {

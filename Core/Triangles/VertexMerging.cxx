@@ -257,9 +257,9 @@ private:
     this->Result.positions = std::move(positions);
   }
 
-  /// Unmerges parts whose merging would invert a triangle: any triangle if the rim stays, else one
-  /// of the caps, which are flat. @returns whether there were any: then neighbors may be no longer
-  /// contractible
+  /// Unmerges parts whose merging would invert a triangle. If the rim stays, all triangles count,
+  /// otherwise only caps, which are flat. @returns whether any was unmerged: the others then have to
+  /// be tested again
   bool unmergeInverting(const SurfaceMesh& mesh, const VertexParts& parts, const CapRim& rim,
     const Placement& placement, const std::vector<Vector>& former,
     std::vector<char>& areMerged) const

@@ -11,8 +11,8 @@ import unittest
 
 # Each folder of the core, and those whose headers its files may include besides its own.
 CORE_FOLDERS = {
-    "Base": "", "Tree": "Base", "Neighbors": "Base Tree", "Fit": "Base", "Places": "Base Tree Neighbors Fit", "Extraction": "Base Tree Neighbors Fit",
-    "Splat": "Base Tree Neighbors Fit Extraction", "SplatMesh": "Base",
+    "Base": "", "Tree": "Base", "Neighbors": "Base Tree", "Fit": "Base", "Places": "Base Tree Neighbors Fit",
+    "Extraction": "Base Tree Neighbors Fit", "Splat": "Base Tree Neighbors Fit Extraction", "SplatMesh": "Base",
     "Tetrahedra": "Base Tree Neighbors Fit Extraction", "Triangles": "Base Tree Neighbors Fit Extraction Tetrahedra",
     "Ranks": "Base Tree Neighbors Fit Extraction Splat Tetrahedra Triangles"}
 # Each folder with sources, and the headers of the project that they may include besides its own.
