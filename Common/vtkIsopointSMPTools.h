@@ -26,7 +26,7 @@ inline isopoint::Execution vtkMakeSMPExecution(vtkAlgorithm* filter)
       { task(static_cast<std::size_t>(begin), static_cast<std::size_t>(end)); });
   };
   execution.progress = [filter](double share) { filter->UpdateProgress(share); };
-  execution.aborted = [filter]() { return vtkIsAborted(filter); };
+  execution.isAborted = [filter]() { return vtkIsAborted(filter); };
   return execution;
 }
 

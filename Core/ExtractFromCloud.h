@@ -28,8 +28,8 @@
 namespace isopoint
 {
 
-/// Rings of ghost isopoints per rank (docs/ranks.md). Five suffice for splats of the first two rings
-/// to be drawn completely. If shapes are computed, splatRings is used instead.
+/// Rings of ghost isopoints per rank (docs/ranks.md). Five suffice for splats of the first two
+/// rings to be drawn completely. If shapes are computed, splatRings is used instead.
 inline constexpr int pointGhostRings = 5;
 
 /// Some isopoints, with their splats. @throws std::bad_alloc, Aborted

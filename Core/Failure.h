@@ -12,7 +12,7 @@ class ProcessGroup;
 /// Invalid input or options. what() tells the user the cause, then the remedy, in a sentence each.
 struct UsageError : std::runtime_error
 {
-  enum Kinds
+  enum Kind
   {
     Argument, // a pointer, a number or the samples
     Array,    // its type, size or memory
@@ -21,19 +21,19 @@ struct UsageError : std::runtime_error
     Fork      // the process was forked during a call
   };
 
-  explicit UsageError(const std::string& text, Kinds ofKind = Argument)
+  explicit UsageError(const std::string& text, Kind ofKind = Argument)
     : std::runtime_error(text)
     , kind(ofKind)
   {
   }
 
-  Kinds kind;
+  Kind kind;
 };
 
 /// Why an extraction ended without a result.
 struct Failure
 {
-  enum Kinds
+  enum Kind
   {
     None,
     Aborted,      // by the caller
@@ -42,10 +42,10 @@ struct Failure
     OutOfMemory,  // or more than there can be
     Bug
   };
-  Kinds kind = None;
+  Kind kind = None;
   std::string text{}; // for the user: the cause, then the remedy; may be empty
 
-  UsageError::Kinds usage = UsageError::Argument; // of InvalidUsage
+  UsageError::Kind usage = UsageError::Argument; // of InvalidUsage
 
   /// Whether to drop data kept for further extractions: memory is needed, or they may be invalid.
   bool spoilsTree() const { return this->kind == OutOfMemory || this->kind == Bug; }

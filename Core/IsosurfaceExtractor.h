@@ -188,7 +188,7 @@ private:
       partOf(execution, 0.0, 0.5), static_cast<std::size_t>(*own), read, first);
     const int exponent = exponentOfAll(processes, loaded);
     dividePositions(execution, loaded, exponent);
-    this->Positions = hashOfSamples(execution, loaded.samples, first);
+    this->PositionsHash = hashOfSamples(execution, loaded.samples, first);
     SharedTree<TSample> shared = SharedTreeBuilder<TSample>(processes, std::move(loaded), all)
                                    .build(partOf(execution, 0.5, 1.0));
     this->Cloud = SampleCloud<TSample>{ std::move(shared.tree), {}, std::move(shared.begins),
@@ -253,7 +253,7 @@ private:
       this->Processes ? this->ItemCounts[static_cast<std::size_t>(this->Processes->rank())]
                       : this->ItemCount;
     const std::uint64_t positions =
-      this->Processes ? this->Positions : hashOfSamples(execution, cloud.tree.samples, 0);
+      this->Processes ? this->PositionsHash : hashOfSamples(execution, cloud.tree.samples, 0);
     const bool isSame = count == loaded && hashOfItems<TSample>(execution, count,
                                              dividedReader(read, cloud.exponent)) == positions;
     return this->Processes ? !this->Processes->isAny(!isSame) : isSame;
@@ -266,7 +266,7 @@ private:
   // Only on ranks:
   ProcessGroup* Processes = nullptr;
   std::vector<std::uint64_t> ItemCounts; // by rank
-  std::uint64_t Positions = 0;           // hash of this rank's items
+  std::uint64_t PositionsHash = 0;       // hash of this rank's items
 };
 
 } // namespace isopoint

@@ -56,7 +56,7 @@ std::optional<FitRequest> fitRequestOf(const Options& options)
 
 void checkOptions(const Options& options, OptionNaming naming)
 {
-  forEveryOption(
+  forAllOptions(
     [&](const auto& option)
     {
       const auto value = options.*option.value;
@@ -110,7 +110,7 @@ Options effectiveOptions(const Options& options)
   effective.triangles = options.triangles;
   effective.keepTetrahedra = options.keepTetrahedra;
   effective.computeSplats = !options.triangles;
-  forEachOption(
+  forEffectiveOptions(
     options, [&](const auto& option) { effective.*option.value = options.*option.value; });
   return effective;
 }

@@ -58,7 +58,7 @@ struct Options
 template <class T>
 struct Option
 {
-  enum Surfaces
+  enum Surface
   {
     Any,
     Points,
@@ -69,7 +69,7 @@ struct Option
   T Options::*value;
   T least;
   T greatest;
-  Surfaces of = Any; // the surfaces that the option affects
+  Surface of = Any; // the surfaces that the option affects
 
   constexpr bool concerns(bool triangles) const
   {
@@ -118,16 +118,16 @@ inline constexpr auto all = std::make_tuple(projection, normalMethod, dropGaps, 
 
 /// Calls visit(option) for all options.
 template <class Visitor>
-void forEveryOption(const Visitor& visit)
+void forAllOptions(const Visitor& visit)
 {
   std::apply([&](const auto&... each) { (visit(each), ...); }, option::all);
 }
 
 /// Calls visit(option) for each option that has an effect.
 template <class Visitor>
-void forEachOption(const Options& options, const Visitor& visit)
+void forEffectiveOptions(const Options& options, const Visitor& visit)
 {
-  forEveryOption(
+  forAllOptions(
     [&](const auto& option)
     {
       if (option.concerns(options.triangles))

@@ -113,7 +113,7 @@ bool isInRange(const Report& report, double isovalue)
          (isovalue < report.greatest || (isovalue == report.greatest && !report.areTriangles));
 }
 
-using Reason = std::pair<Message::Codes, std::string>;
+using Reason = std::pair<Message::Code, std::string>;
 
 /// Why an isovalue in the range has no surface, and the remedy.
 Reason reasonOfEmptyIsovalue(const Report& report, bool isInGaps, OptionNaming naming)
@@ -310,7 +310,7 @@ std::vector<Message> describeReplacedArrays(const Report& report)
   return messages;
 }
 
-Report::Subjects subjectOf(const Options& options, const std::vector<double>& isovalues)
+Report::Subject subjectOf(const Options& options, const std::vector<double>& isovalues)
 {
   if (options.capping)
   {

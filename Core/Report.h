@@ -20,12 +20,12 @@ class ProcessGroup;
 /// A message to the user about an extraction.
 struct Message
 {
-  enum Kinds
+  enum Kind
   {
     Warning, // the result is not as requested
     Note     // it is, and there is something to know
   };
-  enum Codes // as isopoint_message_code
+  enum Code // as isopoint_message_code
   {
     NoCode = 0, // of filters alone
     SkippedSamples = 1,
@@ -43,8 +43,8 @@ struct Message
   };
   std::string cause; // constant in repeated extractions while it lasts
   std::string text;  // the cause, then the remedy, as lists may truncate it
-  Kinds kind = Warning;
-  Codes code = NoCode;
+  Kind kind = Warning;
+  Code code = NoCode;
 };
 
 /// Item counts of a cloud, from its caller.
@@ -86,13 +86,13 @@ Message describeSkipped(
 /// Counts of an extraction of isovalues from clouds, and properties needed to assess them.
 struct Report : SampleCounts
 {
-  enum Subjects
+  enum Subject
   {
     Isosurface,
     Slice, // of the values of a cut function, with keepHullSlivers
     Body   // of all samples, with capping at an infinitely low isovalue
   };
-  Subjects subject = Isosurface;
+  Subject subject = Isosurface;
   std::vector<double> isovalues;        // ascending
   std::vector<std::uint64_t> points;    // by isovalue
   std::vector<std::uint64_t> dropped;   // edges or tetrahedra in gaps, by isovalue

@@ -53,7 +53,7 @@ void vtkScatteredSurfaceFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Contour values:\n";
   this->ContourValues->PrintSelf(os, indent.GetNextIndent());
   const isopoint::Options& core = this->Options->Core;
-  isopoint::forEachOption(core,
+  isopoint::forEffectiveOptions(core,
     [&](const auto& option)
     {
       os << indent << option.name << ": ";

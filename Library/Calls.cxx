@@ -27,7 +27,7 @@ isopoint_status fail(isopoint_status status, std::string& message)
   return status;
 }
 
-isopoint_status statusOf(UsageError::Kinds kind)
+isopoint_status statusOf(UsageError::Kind kind)
 {
   switch (kind)
   {
@@ -105,10 +105,10 @@ void setCallbacks(Execution& execution, isopoint_progress_callback progress,
   }
   if (isCanceled)
   {
-    chosen.aborted = [isCanceled, user]() { return isCanceled(user) != 0; };
+    chosen.isAborted = [isCanceled, user]() { return isCanceled(user) != 0; };
   }
   execution.progress = chosen.progress;
-  execution.aborted = chosen.aborted;
+  execution.isAborted = chosen.isAborted;
 }
 
 } // namespace isopoint

@@ -71,9 +71,9 @@ ProbedArray probedArray(const isopoint_array& array, const isopoint_probe_result
       };
       if (keepsType)
       {
-        probed.take = [reader, values = static_cast<T*>(result.values),
-                        nothing = numberAs<T>(options.outsideNumber)](
-                        std::size_t place, const std::uint64_t* id)
+        probed.writeNearest = [reader, values = static_cast<T*>(result.values),
+                                nothing = numberAs<T>(options.outsideNumber)](
+                                std::size_t place, const std::uint64_t* id)
         {
           const auto components = static_cast<std::size_t>(reader.components());
           for (std::size_t c = 0; c < components; ++c)

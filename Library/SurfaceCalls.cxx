@@ -49,7 +49,7 @@ static_assert(isSame(Message::SkippedSamples, ISOPOINT_MESSAGE_SKIPPED_SAMPLES) 
 bool areSame(const isopoint::Options& first, const isopoint::Options& second)
 {
   bool areSame = first.triangles == second.triangles;
-  isopoint::forEachOption(first,
+  isopoint::forEffectiveOptions(first,
     [&](const auto& option) { areSame = areSame && first.*option.value == second.*option.value; });
   return areSame;
 }

@@ -235,7 +235,7 @@ bool vtkIsopointRayTracer::Internals::Trace(vtkIsopointRayTracer* self, vtkRende
                                     : isopoint::availableThreadsOfRank());
   execution.progress = [self](double share)
   { self->InvokeEvent(vtkCommand::ProgressEvent, &share); };
-  execution.aborted = [self, window]()
+  execution.isAborted = [self, window]()
   { return self->AbortExecute || (window && window->CheckAbortStatus()); };
   vtkIsopointTracedState state;
   state.Add(stateOf(*this->View, renderer), self->SamplesPerPixel, self->AmbientLight,

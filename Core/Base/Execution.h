@@ -24,7 +24,7 @@ using RangeTask = std::function<void(std::size_t begin, std::size_t end)>;
 using ParallelFor =
   std::function<void(std::size_t count, std::size_t grain, const RangeTask& task)>;
 
-/// Thrown when `Execution::aborted` returns true.
+/// Thrown when `Execution::isAborted` returns true.
 struct Aborted : std::runtime_error
 {
   Aborted()
@@ -47,7 +47,7 @@ struct Execution
   std::function<void(double fraction)> progress = [](double) {};
 
   /// Called from the calling thread every few tens of milliseconds. Returns whether to stop.
-  std::function<bool()> aborted = []() { return false; };
+  std::function<bool()> isAborted = []() { return false; };
 };
 
 /// A copy whose progress from 0 to 1 maps to [begin, end] of the original's.
@@ -74,7 +74,7 @@ inline Execution withRisingProgress(const Execution& execution)
 
 inline void throwIfAborted(const Execution& execution)
 {
-  if (execution.aborted())
+  if (execution.isAborted())
   {
     throw Aborted();
   }

@@ -28,7 +28,7 @@ struct IndexSpan
 };
 
 /// 0, ..., count - 1.
-inline std::vector<std::size_t> numbersBelow(std::size_t count)
+inline std::vector<std::size_t> iota(std::size_t count)
 {
   std::vector<std::size_t> numbers(count);
   std::iota(numbers.begin(), numbers.end(), std::size_t{ 0 });
@@ -37,7 +37,7 @@ inline std::vector<std::size_t> numbersBelow(std::size_t count)
 
 /// Offsets of concatenated lists, from `first` on, and the end of the last one.
 template <class T>
-std::vector<std::size_t> beginsOf(const std::vector<std::vector<T>>& lists, std::size_t first = 0)
+std::vector<std::size_t> offsetsOf(const std::vector<std::vector<T>>& lists, std::size_t first = 0)
 {
   std::vector<std::size_t> begins(1, first);
   begins.reserve(lists.size() + 1);
@@ -52,7 +52,7 @@ std::vector<std::size_t> beginsOf(const std::vector<std::vector<T>>& lists, std:
 /// @param sizeOf(list) called from any thread; takes at most microseconds
 /// @throws Aborted, std::bad_alloc, and whatever `sizeOf` throws
 template <class SizeOf>
-std::vector<std::size_t> beginsOfLists(
+std::vector<std::size_t> offsetsFromSizes(
   const Execution& execution, std::size_t listCount, const SizeOf& sizeOf)
 {
   std::vector<std::size_t> begins(listCount + 1, 0);
@@ -62,7 +62,7 @@ std::vector<std::size_t> beginsOfLists(
 }
 
 /// Calls work(list) for the index of each list, from any thread; groups short lists.
-/// @param begins offsets from beginsOf()
+/// @param begins offsets from offsetsOf()
 /// @throws Aborted, and whatever `work` throws
 template <class Work>
 void forEachList(
@@ -82,7 +82,7 @@ void forEachList(
 }
 
 /// Concatenates lists. @throws Aborted, std::bad_alloc
-/// @param begins offsets from beginsOf()
+/// @param begins offsets from offsetsOf()
 template <class T>
 std::vector<T> joined(const Execution& execution, const std::vector<std::vector<T>>& lists,
   const std::vector<std::size_t>& begins)
@@ -122,7 +122,7 @@ std::vector<T> collected(
   {
     inOrder.push_back(std::move(list));
   }
-  return joined(execution, inOrder, beginsOf(inOrder));
+  return joined(execution, inOrder, offsetsOf(inOrder));
 }
 
 /// The elements found at the items 0 .. count - 1, in their order.

@@ -267,7 +267,7 @@ private:
           }
         }
       });
-    const std::vector<std::size_t> begins = beginsOf(parts);
+    const std::vector<std::size_t> begins = offsetsOf(parts);
     this->Touching = joined(execution, parts, begins);
     forEachIndex(execution, count,
       [&](std::size_t leaf) { this->TouchingEnds[leaf + 1] += begins[leaf / grain]; });

@@ -34,8 +34,8 @@ public:
   }
 
   /// min(a, 1.2 b): a is the distance of the neighbor at 2/5 of the sorted list (ignores far ones
-  /// across a void); b is the distance at which the neighbors first span space (ignores near ones on
-  /// a line or plane). O(n log n)
+  /// across a void); b is the distance at which the neighbors first span space (ignores near ones
+  /// on a line or plane). O(n log n)
   double spacing()
   {
     std::sort(this->Neighbors.begin(), this->Neighbors.end(),

@@ -22,7 +22,7 @@ class AllPoints
 {
 public:
   explicit AllPoints(std::size_t count)
-    : Indices(numbersBelow(count))
+    : Indices(iota(count))
   {
   }
 

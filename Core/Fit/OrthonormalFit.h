@@ -256,8 +256,8 @@ private:
   }
 
   static constexpr std::size_t size = coefficientCount(Degree);
-  /// A sample that alone determines a coefficient has leverage 1 and residual 0. Its difference from
-  /// the mean replaces residual / rest.
+  /// A sample that alone determines a coefficient has leverage 1 and residual 0. Its difference
+  /// from the mean replaces residual / rest.
   static constexpr double leastRest = 1e-3;
 
   FrameSamples Turned; // to the axes of thin samples

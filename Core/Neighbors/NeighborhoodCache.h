@@ -46,7 +46,7 @@ public:
   void add(
     const Execution& execution, const std::vector<std::vector<TId>>& lists, std::size_t nodeCount)
   {
-    const std::vector<std::size_t> begins = beginsOf(lists, this->Lists.size());
+    const std::vector<std::size_t> begins = offsetsOf(lists, this->Lists.size());
     this->Offsets.resize(std::max(this->Offsets.size(), nodeCount), 0);
     this->Lists.resize(begins.back());
     forEachList(execution, begins, [&](std::size_t list) { this->set(begins[list], lists[list]); });

@@ -91,14 +91,14 @@ private:
 };
 
 /// The criterion of edges that start a gap in a body or a slice.
-inline VoidCriterion<GapCriterion> strongVoids()
+inline VoidCriterion<GapCriterion> strongVoidCriterion()
 {
   constexpr double strongVoidFactor = 1.0;
   return { GapCriterion::strong(), strongVoidFactor };
 }
 
 /// The criterion of edges connected with such a gap.
-inline VoidCriterion<RimCriterion> weakVoids()
+inline VoidCriterion<RimCriterion> weakVoidCriterion()
 {
   constexpr double weakVoidFactor = 0.7;
   return { RimCriterion(), weakVoidFactor };

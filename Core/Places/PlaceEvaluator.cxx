@@ -211,9 +211,9 @@ void PlaceEvaluator::writeOutside(const ProbedArray& array, std::size_t place) c
 
 void PlaceEvaluator::writeNothing(const ProbedArray& array, std::size_t place) const
 {
-  if (array.take)
+  if (array.writeNearest)
   {
-    array.take(place, nullptr);
+    array.writeNearest(place, nullptr);
     return;
   }
   const auto components = static_cast<std::size_t>(array.components);
@@ -249,9 +249,9 @@ void PlaceEvaluator::writeNearest(
   {
     this->writeNothing(array, place);
   }
-  else if (array.take)
+  else if (array.writeNearest)
   {
-    array.take(place, &*found);
+    array.writeNearest(place, &*found);
   }
   else
   {

@@ -143,7 +143,7 @@ std::vector<std::size_t> placesInTreeOrder(const Execution& execution,
 {
   if (tree.isEmpty())
   {
-    return numbersBelow(places.size());
+    return iota(places.size());
   }
   using NodeAtPlace = std::pair<std::size_t, std::size_t>;
   std::vector<MissingNode> missing;

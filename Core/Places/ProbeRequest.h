@@ -42,7 +42,7 @@ struct ProbedArray
   /// If not empty, called instead of writing values, with the id of the nearest sample whose
   /// components are all finite, or null if there is none or the place is outside: for
   /// PlaceMethod::Nearest, which keeps types. On one rank only.
-  std::function<void(std::size_t place, const std::uint64_t* id)> take;
+  std::function<void(std::size_t place, const std::uint64_t* id)> writeNearest;
 };
 
 } // namespace isopoint

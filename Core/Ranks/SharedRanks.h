@@ -59,7 +59,7 @@ public:
     const Execution& execution, const ItemBatches& batches, const MakeWorker& makeWorker,
     const Work& work, const BatchDone& batchDone = [](double) {})
   {
-    std::vector<std::size_t> items = numbersBelow(batches.count);
+    std::vector<std::size_t> items = iota(batches.count);
     std::vector<MissingNode> missing;
     do
     {
@@ -159,9 +159,9 @@ public:
     leaves.insert(leaves.end(), others.begin(), others.end());
   }
 
-  void order(std::vector<CrossingTetrahedron>& tetrahedra) const
+  void order(std::vector<LeafTetrahedron>& tetrahedra) const
   {
-    const auto treeIndicesOf = [this](const CrossingTetrahedron& tetrahedron)
+    const auto treeIndicesOf = [this](const LeafTetrahedron& tetrahedron)
     {
       std::array<std::uint64_t, 4> indices{};
       std::transform(tetrahedron.corners.begin(), tetrahedron.corners.end(), indices.begin(),
@@ -170,7 +170,7 @@ public:
       return indices;
     };
     std::sort(tetrahedra.begin(), tetrahedra.end(),
-      [&](const CrossingTetrahedron& a, const CrossingTetrahedron& b)
+      [&](const LeafTetrahedron& a, const LeafTetrahedron& b)
       { return treeIndicesOf(a) < treeIndicesOf(b); });
   }
 

@@ -91,7 +91,7 @@ private:
       tree.region.upper[axis] = fromOrderedKey(keys[axis]);
       tree.region.lower[axis] = fromOrderedKey(~keys[3 + axis]);
     }
-    this->Level.push_back({ rootNode, tree.region, 0, this->Loaded.samples.size(), count });
+    this->LevelNodes.push_back({ rootNode, tree.region, 0, this->Loaded.samples.size(), count });
   }
 
   /// Positions of a node's samples relative to its middle sample.
@@ -185,7 +185,7 @@ private:
   {
     throwIfAborted(execution);
     std::vector<DistributedNode> nodes;
-    std::copy_if(this->Level.begin(), this->Level.end(), std::back_inserter(nodes),
+    std::copy_if(this->LevelNodes.begin(), this->LevelNodes.end(), std::back_inserter(nodes),
       [this](const DistributedNode& node)
       { return !this->Result.tree.nodes[node.nodeIndex].isLeaf; });
     if (nodes.empty())
@@ -197,7 +197,7 @@ private:
     const std::vector<Sides> sides = this->sidesOf(nodes, middles);
     std::vector<DistributedNode> below;
     std::size_t next = 0;
-    for (const DistributedNode& node : this->Level)
+    for (const DistributedNode& node : this->LevelNodes)
     {
       if (this->Result.tree.nodes[node.nodeIndex].isLeaf)
       {
@@ -209,7 +209,7 @@ private:
         ++next;
       }
     }
-    this->Level.swap(below);
+    this->LevelNodes.swap(below);
   }
 
   /// Splits a node by the definition (docs/algorithm.md, section 3).
@@ -249,7 +249,7 @@ private:
     const std::size_t globalMiddle = parent.begin + lowerCount;
     tree.nodes[parent.lowerNode()] = makeNode<TSample>(parent.begin, globalMiddle);
     tree.nodes[parent.upperNode()] = makeNode<TSample>(globalMiddle, parent.end);
-    this->Split.push_back(node.nodeIndex);
+    this->SplitNodes.push_back(node.nodeIndex);
     const auto axis = static_cast<std::size_t>(middle.axis);
     Region lower = node.region;
     Region upper = node.region;
@@ -263,10 +263,11 @@ private:
   void computeRanges()
   {
     using Value = typename TSample::Value;
-    std::vector<std::uint64_t> keys(2 * this->Level.size(), 0);
-    for (std::size_t i = 0; i < this->Level.size(); ++i)
+    std::vector<std::uint64_t> keys(2 * this->LevelNodes.size(), 0);
+    for (std::size_t i = 0; i < this->LevelNodes.size(); ++i)
     {
-      for (std::size_t sample = this->Level[i].begin; sample < this->Level[i].end; ++sample)
+      for (std::size_t sample = this->LevelNodes[i].begin; sample < this->LevelNodes[i].end;
+           ++sample)
       {
         const std::uint64_t key =
           orderedKey(static_cast<double>(this->Loaded.samples[sample].value));
@@ -276,13 +277,13 @@ private:
     }
     this->Processes.maximum(keys);
     SampleTree<TSample>& tree = this->Result.tree;
-    for (std::size_t i = 0; i < this->Level.size(); ++i)
+    for (std::size_t i = 0; i < this->LevelNodes.size(); ++i)
     {
-      Node<TSample>& node = tree.nodes[this->Level[i].nodeIndex];
+      Node<TSample>& node = tree.nodes[this->LevelNodes[i].nodeIndex];
       node.maximum = static_cast<Value>(fromOrderedKey(keys[2 * i]));
       node.minimum = static_cast<Value>(fromOrderedKey(~keys[2 * i + 1]));
     }
-    for (auto index = this->Split.rbegin(); index != this->Split.rend(); ++index)
+    for (auto index = this->SplitNodes.rbegin(); index != this->SplitNodes.rend(); ++index)
     {
       Node<TSample>& node = tree.nodes[*index];
       uniteRanges(node, tree.nodes[node.lowerNode()], tree.nodes[node.upperNode()]);
@@ -305,12 +306,12 @@ private:
     const auto ranks = static_cast<std::size_t>(this->Processes.size());
     const auto own = static_cast<std::size_t>(this->Processes.rank());
     SampleTree<TSample>& tree = this->Result.tree;
-    std::vector<std::vector<std::size_t>> partsOf(ranks); // by rank, in Level
+    std::vector<std::vector<std::size_t>> partsOf(ranks); // by rank, in LevelNodes
     std::vector<std::vector<std::uint64_t>> counts(ranks);
     this->Result.begins.assign(ranks + 1, 0);
-    for (std::size_t i = 0; i < this->Level.size(); ++i)
+    for (std::size_t i = 0; i < this->LevelNodes.size(); ++i)
     {
-      const DistributedNode& node = this->Level[i];
+      const DistributedNode& node = this->LevelNodes[i];
       const std::size_t owner = this->ownerOf(node, all);
       partsOf[owner].push_back(i);
       counts[owner].push_back(node.end - node.begin);
@@ -371,7 +372,7 @@ private:
     {
       if (round < partsOf[rank].size())
       {
-        const DistributedNode& node = this->Level[partsOf[rank][round]];
+        const DistributedNode& node = this->LevelNodes[partsOf[rank][round]];
         const std::size_t count = node.end - node.begin;
         from[rank] = { this->Loaded.samples.data() + node.begin + slice.begin(count),
           slice.length(count) * sizeof(TSample) };
@@ -379,7 +380,7 @@ private:
     }
     if (round < partsOf[own].size())
     {
-      std::size_t next = tree.nodes[this->Level[partsOf[own][round]].nodeIndex].begin;
+      std::size_t next = tree.nodes[this->LevelNodes[partsOf[own][round]].nodeIndex].begin;
       for (std::size_t rank = 0; rank < partsOf.size(); ++rank)
       {
         const std::size_t count = arriving[rank][round];
@@ -393,7 +394,7 @@ private:
     {
       if (round < partsOf[rank].size())
       {
-        const DistributedNode& node = this->Level[partsOf[rank][round]];
+        const DistributedNode& node = this->LevelNodes[partsOf[rank][round]];
         const std::size_t count = node.end - node.begin;
         this->Loaded.samples.discard(
           node.begin + slice.begin(count), node.begin + slice.end(count));
@@ -407,7 +408,7 @@ private:
     SampleTree<TSample>& tree = this->Result.tree;
     for (const std::size_t part : parts)
     {
-      const Node<TSample>& node = tree.nodes[this->Level[part].nodeIndex];
+      const Node<TSample>& node = tree.nodes[this->LevelNodes[part].nodeIndex];
       if (node.isLeaf)
       {
         std::sort(tree.samples.data() + node.begin, tree.samples.data() + node.end,
@@ -420,8 +421,8 @@ private:
   SampleTree<TSample> Loaded;
   std::uint64_t IdCount;
   SharedTree<TSample> Result;
-  std::vector<DistributedNode> Level; // nodes of the current level, and leaves above it
-  std::vector<std::size_t> Split;     // nodes, parents first
+  std::vector<DistributedNode> LevelNodes; // nodes of the current level, and leaves above it
+  std::vector<std::size_t> SplitNodes;     // nodes, parents first
 };
 
 } // namespace isopoint

@@ -309,7 +309,7 @@ private:
         }
       }
     }
-    std::vector<std::size_t> order = numbersBelow(both.size());
+    std::vector<std::size_t> order = iota(both.size());
     std::stable_sort(order.begin(), order.end(),
       [&both](std::size_t a, std::size_t b) { return both.edges[a] < both.edges[b]; });
     order.erase(std::unique(order.begin(), order.end(),

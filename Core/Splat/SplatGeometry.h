@@ -193,9 +193,9 @@ private:
     return chosenOf(this->Run, own, changed);
   }
 
-  /// Whether a point is not on the surface around it. Either its edge is long, as across a void, and
-  /// no cell beside its own has a side towards it; or the normals all around oppose its normal, but
-  /// agree with its edge.
+  /// Whether a point is not on the surface around it. Either its edge is long, as across a void,
+  /// and no cell beside its own has a side towards it; or the normals all around oppose its normal,
+  /// but agree with its edge.
   bool isStray(std::size_t point) const
   {
     constexpr double longEdge = 4.0; // in units; as the strong gap criterion

@@ -129,7 +129,7 @@ std::vector<Entry> verticesByCell(
 std::vector<std::size_t> meetingVertices(
   const Execution& execution, const std::vector<SplatVertex>& vertices)
 {
-  std::vector<std::size_t> meetsAt = numbersBelow(vertices.size());
+  std::vector<std::size_t> meetsAt = iota(vertices.size());
   const auto firstOf = [&meetsAt](std::size_t vertex)
   {
     while (meetsAt[vertex] != vertex)

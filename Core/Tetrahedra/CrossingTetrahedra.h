@@ -58,13 +58,13 @@ public:
   /// @param nodes that contain all of this rank's leaves that touch a leaf on the other side
   /// @returns tetrahedra of leaves of this rank's tree
   /// @throws std::bad_alloc, Aborted, FailedElsewhere, or TreeTooLarge (see NarrowBand)
-  std::vector<CrossingTetrahedron> find(const std::vector<BinaryIndex>& nodes)
+  std::vector<LeafTetrahedron> find(const std::vector<BinaryIndex>& nodes)
   {
     if (!this->certifyCrossing(nodes))
     {
       return {};
     }
-    std::vector<CrossingTetrahedron> found = this->triangulation().crossingTetrahedra(this->Run);
+    std::vector<LeafTetrahedron> found = this->triangulation().crossingTetrahedra(this->Run);
     this->finish();
     return found;
   }
@@ -122,7 +122,7 @@ private:
     }
     this->begin(leaves);
     this->triangulation().setOutsideBelow(this->IsBody);
-    if (!this->Current->isWhole && this->areMany(this->Counts.atSurface))
+    if (!this->Current->isWhole && this->areTooManyToSearch(this->Counts.atSurface))
     {
       this->insertAll();
     }
@@ -131,7 +131,7 @@ private:
     {
       this->gatherAndInsert(this->cornerLeaves());
     }
-    this->spanSpace();
+    this->insertUntilNotCoplanar();
     while (!this->Current->isWhole && this->triangulation().dimension() == 3)
     {
       ++this->Counts.rounds;
@@ -249,7 +249,7 @@ private:
   {
     this->Current = std::move(this->Kept);
     const bool isNew = this->Ranks.isAny(!this->Current);
-    if (isNew || !this->isOfUse(leaves))
+    if (isNew || !this->isReusable(leaves))
     {
       dropTetrahedra(this->Run, this->Current);
       this->Current = std::make_unique<KeptTetrahedra>(unitOfSamples(this->Run, this->Tree));
@@ -259,7 +259,7 @@ private:
       this->Run, [this](std::uint64_t leaf) { return this->Values.at(leaf) < this->Isovalue; });
   }
 
-  bool isOfUse(const std::vector<std::size_t>& leaves)
+  bool isReusable(const std::vector<std::size_t>& leaves)
   {
     constexpr std::size_t minShare = 4; // one of so many
     constexpr std::size_t maxTimes = 3;
@@ -368,7 +368,7 @@ private:
   }
 
   /// Inserts samples until they are not coplanar, unless all samples are.
-  void spanSpace()
+  void insertUntilNotCoplanar()
   {
     while (this->triangulation().size() > 0 && this->triangulation().dimension() < 3)
     {
@@ -453,7 +453,7 @@ private:
   {
     throwIfAborted(this->Run);
     SearchResult result = this->searchSpheres(open);
-    if (!this->Ranks.isAny(this->isSpent()))
+    if (!this->Ranks.isAny(this->isBudgetSpent()))
     {
       this->split(result.unsplit);
       this->gatherAndInsert(std::move(result.leaves));
@@ -462,7 +462,7 @@ private:
 
   void insertAllIfSpent()
   {
-    if (!this->Current->isWhole && this->Ranks.isAny(this->isSpent()))
+    if (!this->Current->isWhole && this->Ranks.isAny(this->isBudgetSpent()))
     {
       this->insertAll();
     }
@@ -481,7 +481,7 @@ private:
           this->Current->boxes, this->IsBody);
         std::vector<std::size_t> leaves;
         std::size_t visits = 0;
-        for (std::size_t i = begin; i < end && !this->isSpent(); ++i)
+        for (std::size_t i = begin; i < end && !this->isBudgetSpent(); ++i)
         {
           if (const std::optional<std::size_t> leaf = search.find(open[i]))
           {
@@ -531,7 +531,7 @@ private:
   }
 
   /// Whether it is faster to insert all samples, because so many are near the surface.
-  bool areMany(std::size_t leafCount) const
+  bool areTooManyToSearch(std::size_t leafCount) const
   {
     constexpr double manyShare = 1.0 / 3.0;
     constexpr std::size_t smallCloud = 1000; // most of its samples are near the surface
@@ -542,7 +542,7 @@ private:
 
   /// Whether searches took longer than inserting all samples would. Long searches, as in huge
   /// spheres through voids, get a twelfth of the budget: more of them follow.
-  bool isSpent() const
+  bool isBudgetSpent() const
   {
     constexpr std::size_t longSearch = 500;
     constexpr std::size_t smallCloud = 10000;

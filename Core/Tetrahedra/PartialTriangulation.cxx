@@ -29,12 +29,12 @@ using cgal::Vertex;
 using cgal::VertexInfo;
 
 /// An even permutation of the corners with those below the isovalue first.
-CrossingTetrahedron bySides(Cell cell)
+LeafTetrahedron bySides(Cell cell)
 {
   std::array<VertexInfo, 4> corners{ cell->vertex(0)->info(), cell->vertex(1)->info(),
     cell->vertex(2)->info(), cell->vertex(3)->info() };
   const auto isBelow = [](const VertexInfo& corner) { return corner.isBelow(); };
-  CrossingTetrahedron result{};
+  LeafTetrahedron result{};
   result.belowCount =
     static_cast<std::uint8_t>(std::count_if(corners.begin(), corners.end(), isBelow));
   bool isOdd = false;
@@ -231,7 +231,7 @@ void PartialTriangulation::clear(const Execution& execution)
   {
     try
     {
-      isAborted = isAborted || execution.aborted();
+      isAborted = isAborted || execution.isAborted();
     }
     catch (...)
     {
@@ -248,7 +248,7 @@ void PartialTriangulation::clear(const Execution& execution)
   {
     std::rethrow_exception(failure);
   }
-  if (isAborted || execution.aborted())
+  if (isAborted || execution.isAborted())
   {
     throw Aborted();
   }
@@ -328,16 +328,15 @@ std::vector<CellHandle> PartialTriangulation::openCells(const Execution& executi
     execution, [](Cell cell) { return !cell->info().isCertified; });
 }
 
-std::vector<CrossingTetrahedron> PartialTriangulation::crossingTetrahedra(
-  const Execution& execution)
+std::vector<LeafTetrahedron> PartialTriangulation::crossingTetrahedra(const Execution& execution)
 {
   const std::vector<CellHandle> cells = this->Inside->crossingCells(
     execution, [this](Cell cell) { return !this->Inside->isInfinite(cell); });
   this->Inside->All = std::vector<CellHandle>(); // free the memory
-  return tabulated<CrossingTetrahedron>(execution, cells.size(),
+  return tabulated<LeafTetrahedron>(execution, cells.size(),
     [&](std::size_t i)
     {
-      CrossingTetrahedron result = bySides(cellOf(cells[i]));
+      LeafTetrahedron result = bySides(cellOf(cells[i]));
       result.isAtHull = this->Inside->isCrossingAtHull(cellOf(cells[i]));
       return result;
     });
@@ -479,12 +478,12 @@ FacetCorners PartialTriangulation::cornersOf(const ExploredFacet& facet) const
   return result;
 }
 
-CrossingTetrahedron PartialTriangulation::exploredTetrahedron(std::size_t tetrahedron) const
+LeafTetrahedron PartialTriangulation::exploredTetrahedron(std::size_t tetrahedron) const
 {
   return bySides(this->Inside->Explored[tetrahedron]);
 }
 
-ExploredFacet PartialTriangulation::wedgeEnd(
+ExploredFacet PartialTriangulation::nextBorderFacet(
   const ExploredFacet& facet, std::size_t side, const std::vector<char>& areInGap) const
 {
   const auto isInBody = [&](Cell cell)

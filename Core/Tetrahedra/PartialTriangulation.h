@@ -25,7 +25,7 @@ struct Site
 };
 
 /// A tetrahedron, mostly with corners on both sides of the isovalue.
-struct CrossingTetrahedron
+struct LeafTetrahedron
 {
   /// Node indices of the leaves at the corners, those below first, in positive orientation.
   std::array<std::size_t, 4> corners;
@@ -109,7 +109,7 @@ public:
 
   /// The crossing tetrahedra, in any order; none if the dimension is below 3. O(cells)
   /// @throws std::bad_alloc, Aborted
-  std::vector<CrossingTetrahedron> crossingTetrahedra(const Execution& execution);
+  std::vector<LeafTetrahedron> crossingTetrahedra(const Execution& execution);
 
   /// Whether a cell is a facet of the hull.
   bool isBeyondHull(CellHandle cell) const;
@@ -159,13 +159,13 @@ public:
   std::size_t across(const ExploredFacet& facet) const;
 
   FacetCorners cornersOf(const ExploredFacet& facet) const;
-  CrossingTetrahedron exploredTetrahedron(std::size_t tetrahedron) const;
+  LeafTetrahedron exploredTetrahedron(std::size_t tetrahedron) const;
 
   /// Turns from a facet at the border of a body around one of its edges, through the body, to the
   /// next facet at the border. From any thread. O(tetrahedra at the edge)
   /// @param side of the facet: from corner `side` to the next
   /// @param areInGap explored tetrahedra that are not in the body
-  ExploredFacet wedgeEnd(
+  ExploredFacet nextBorderFacet(
     const ExploredFacet& facet, std::size_t side, const std::vector<char>& areInGap) const;
 
 private:

@@ -27,10 +27,12 @@ namespace nodemarks
 /// The samples of this leaf are a vertex.
 inline constexpr std::uint8_t inserted = 1;
 
-/// A search has reached this leaf or small unsplit node: a crossing cell's sphere may meet its region.
+/// A search has reached this leaf or small unsplit node: a crossing cell's sphere may meet its
+/// region.
 inline constexpr std::uint8_t reached = 2;
 
-/// A search has skipped this node: such a sphere may meet its region, but holds none of its samples.
+/// A search has skipped this node: such a sphere may meet its region, but holds none of its
+/// samples.
 inline constexpr std::uint8_t missed = 4;
 
 } // namespace nodemarks

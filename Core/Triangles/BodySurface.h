@@ -57,7 +57,7 @@ private:
   {
     const std::size_t crossingCount = this->Body.crossing.size();
     const std::vector<std::size_t> begins =
-      beginsOfLists(this->Run, crossingCount + this->Body.caps.size(),
+      offsetsFromSizes(this->Run, crossingCount + this->Body.caps.size(),
         [&](std::size_t i)
         {
           return i < crossingCount ? (this->Body.crossing[i].belowCount == 2 ? 2 : 1)
@@ -142,7 +142,7 @@ private:
   std::vector<std::size_t> pairsInOrder() const
   {
     const std::size_t count = this->Vertices.pairCount();
-    return this->Order == EdgeOrder::Tree ? numbersBelow(count)
+    return this->Order == EdgeOrder::Tree ? iota(count)
                                           : orderOfEdges(this->Run, count,
                                               [this](std::size_t pair) -> const SampleEdge&
                                               { return this->Vertices.edges()[pair]; });

@@ -22,7 +22,7 @@ namespace isopoint
 /// What the surface of a body is made of: docs/triangles.md, "Bodies".
 struct BodyTetrahedra
 {
-  std::vector<CrossingTetrahedron> crossing; // in the body
+  std::vector<LeafTetrahedron> crossing; // in the body
   std::vector<CapFacet> caps;
   std::size_t droppedCount = 0; // explored tetrahedra in gaps
 };
@@ -186,11 +186,11 @@ private:
   void findGaps()
   {
     Spread ofWeak(this->Run, this->Ranks, this->Explored);
-    ofWeak.spread(numbersBelow(this->Explored.size()), [this](const std::vector<std::size_t>& some)
-      { return this->Edges.rejectedAmong(weakVoids(), some); });
+    ofWeak.spread(iota(this->Explored.size()), [this](const std::vector<std::size_t>& some)
+      { return this->Edges.rejectedAmong(weakVoidCriterion(), some); });
     const std::vector<char> areWeak = ofWeak.takeMarks();
     Spread ofStrong(this->Run, this->Ranks, this->Explored);
-    ofStrong.spread(this->Edges.rejectedAmong(strongVoids(), markedOf(this->Run, areWeak)),
+    ofStrong.spread(this->Edges.rejectedAmong(strongVoidCriterion(), markedOf(this->Run, areWeak)),
       [&](const std::vector<std::size_t>& some)
       {
         return chosenOf(this->Run, some,
@@ -212,7 +212,7 @@ private:
         {
           return;
         }
-        const CrossingTetrahedron found = this->cells().exploredTetrahedron(tetrahedron);
+        const LeafTetrahedron found = this->cells().exploredTetrahedron(tetrahedron);
         if (found.belowCount > 0 && found.belowCount < 4)
         {
           body.crossing.push_back(found);
@@ -245,7 +245,7 @@ private:
         {
           if (!cap.areBelow[side] || !cap.areBelow[(side + 1) % 3])
           {
-            const ExploredFacet end = this->cells().wedgeEnd(facets[i], side, this->IsInGap);
+            const ExploredFacet end = this->cells().nextBorderFacet(facets[i], side, this->IsInGap);
             cap.partners[side] = static_cast<std::size_t>(
               std::lower_bound(facets.begin(), facets.end(), end, isBefore) - facets.begin());
           }

@@ -74,7 +74,7 @@ public:
   /// @param tetrahedra, caps their corners are leaves of the tree
   CrossingVertices(const Execution& execution, const SampleTree<TSample>& tree,
     LeafValues<TSample>& values, double isovalue, EdgeOrder order,
-    const std::vector<CrossingTetrahedron>& tetrahedra, const std::vector<CapFacet>& caps)
+    const std::vector<LeafTetrahedron>& tetrahedra, const std::vector<CapFacet>& caps)
     : Run(execution)
     , Tree(tree)
     , Values(values)
@@ -98,7 +98,7 @@ public:
     this->Run.progress(1.0);
   }
 
-  Polygon polygonOf(const CrossingTetrahedron& tetrahedron) const
+  Polygon polygonOf(const LeafTetrahedron& tetrahedron) const
   {
     const auto numberOf = [&](std::size_t corner)
     { return this->NumberOf[tetrahedron.corners[corner]]; };
@@ -163,7 +163,7 @@ public:
     MarchedTriangles<TSample> result;
     result.edges = chosenOf(this->Run, this->Edges, pairs);
     result.mesh.positions = chosenOf(this->Run, this->Positions, pairs);
-    result.mesh.members = numbersBelow(pairs.size());
+    result.mesh.members = iota(pairs.size());
     result.nearerEnds = chosenOf(this->Run, this->NearerEnds, pairs);
     result.endCount = this->Leaves.size();
     return result;
@@ -340,7 +340,7 @@ private:
   /// them if there is one.
   void mergeAtSamples()
   {
-    this->VertexOf = numbersBelow(this->Edges.size());
+    this->VertexOf = iota(this->Edges.size());
     constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
     std::vector<std::size_t> vertexAt(this->Leaves.size(), none); // by end
     const auto add = [&](std::size_t end, std::size_t edge)
@@ -371,7 +371,7 @@ private:
   LeafValues<TSample>& Values;
   const double Isovalue;
   const EdgeOrder Order;
-  const std::vector<CrossingTetrahedron>& Tetrahedra;
+  const std::vector<LeafTetrahedron>& Tetrahedra;
   const std::vector<CapFacet>& Caps;
   std::vector<Id> Leaves;              // by number
   std::vector<Id> NumberOf;            // by leaf

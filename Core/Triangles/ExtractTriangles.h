@@ -89,7 +89,7 @@ public:
       partOf(this->Run, fitsEnd, 1.0), context, std::move(mesh), std::move(fits));
   }
 
-  std::vector<CrossingTetrahedron> tetrahedra(const Execution& execution)
+  std::vector<LeafTetrahedron> tetrahedra(const Execution& execution)
   {
     if (this->Tree.isEmpty())
     {
@@ -148,8 +148,7 @@ private:
         this->Request.isovalue, order, body)
         .find();
     }
-    std::vector<CrossingTetrahedron> found =
-      this->tetrahedra(partOf(execution, 0.0, tetrahedraEnd));
+    std::vector<LeafTetrahedron> found = this->tetrahedra(partOf(execution, 0.0, tetrahedraEnd));
     if (this->Request.dropsGaps)
     {
       this->dropGaps(partOf(execution, tetrahedraEnd, gapsEnd), found);
@@ -235,7 +234,7 @@ private:
     return fits;
   }
 
-  void dropGaps(const Execution& execution, std::vector<CrossingTetrahedron>& found)
+  void dropGaps(const Execution& execution, std::vector<LeafTetrahedron>& found)
   {
     this->Ranks.order(found);
     const std::size_t count = found.size();

@@ -26,7 +26,7 @@ class ConnectedTetrahedra
 {
 public:
   /// @param nodeCount of the tree
-  ConnectedTetrahedra(const std::vector<CrossingTetrahedron>& tetrahedra, std::size_t nodeCount)
+  ConnectedTetrahedra(const std::vector<LeafTetrahedron>& tetrahedra, std::size_t nodeCount)
     : Tetrahedra(tetrahedra)
     , NodeCount(nodeCount)
   {
@@ -91,7 +91,7 @@ private:
     }
   }
 
-  const std::vector<CrossingTetrahedron>& Tetrahedra;
+  const std::vector<LeafTetrahedron>& Tetrahedra;
   const std::size_t NodeCount;
   std::optional<ItemLists> AtLeaves; // tetrahedra; built when a gap is found
 };
@@ -106,7 +106,7 @@ public:
   /// @param tetrahedra all crossing tetrahedra, in the same order on all ranks
   /// @param keepsHullSlivers see IsosurfaceRequest
   GapTetrahedraFinder(const Execution& execution, const SampleTree<TSample>& tree, TRanks& ranks,
-    const std::vector<CrossingTetrahedron>& tetrahedra, bool keepsHullSlivers)
+    const std::vector<LeafTetrahedron>& tetrahedra, bool keepsHullSlivers)
     : Run(execution)
     , Tree(tree)
     , Ranks(ranks)
@@ -125,7 +125,7 @@ public:
     spread.spread(this->seeds(),
       [this](const std::vector<std::size_t>& some)
       {
-        return this->KeepsHullSlivers ? this->Edges.rejectedAmong(weakVoids(), some)
+        return this->KeepsHullSlivers ? this->Edges.rejectedAmong(weakVoidCriterion(), some)
                                       : this->Edges.rejectedAmong(RimCriterion(), some);
       });
     spread.dropFragments();
@@ -147,7 +147,7 @@ private:
       });
     if (this->KeepsHullSlivers)
     {
-      return this->Edges.rejectedAmong(strongVoids(), candidates);
+      return this->Edges.rejectedAmong(strongVoidCriterion(), candidates);
     }
     std::vector<std::size_t> seeds = this->Edges.rejectedAmong(GapCriterion::strong(), candidates);
     const std::vector<std::size_t> atHull = itemsThat(this->Run, this->Tetrahedra.size(),
@@ -216,7 +216,7 @@ private:
   const Execution& Run;
   const SampleTree<TSample>& Tree;
   TRanks& Ranks;
-  const std::vector<CrossingTetrahedron>& Tetrahedra;
+  const std::vector<LeafTetrahedron>& Tetrahedra;
   const bool KeepsHullSlivers;
   TetrahedronEdges<TSample, TRanks> Edges;
 };

@@ -19,7 +19,7 @@ namespace isopoint
 template <class TSample>
 MarchedTriangles<TSample> marchTetrahedra(const Execution& execution,
   const SampleTree<TSample>& tree, LeafValues<TSample>& values, double isovalue, EdgeOrder order,
-  const std::vector<CrossingTetrahedron>& tetrahedra)
+  const std::vector<LeafTetrahedron>& tetrahedra)
 {
   const Execution findExecution = partOf(execution, 0.0, 0.6);
   const std::vector<CapFacet> noCaps;

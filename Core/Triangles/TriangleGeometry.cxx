@@ -96,7 +96,7 @@ void keepTrianglesUpright(const Execution& execution, const std::vector<Vector>&
     return dot(before, falling) > 0.0 && !(dot(after, falling) > 0.0);
   };
   // All triangles at first, then the changed ones.
-  std::vector<std::size_t> suspects = numbersBelow(triangles.size());
+  std::vector<std::size_t> suspects = iota(triangles.size());
   while (!suspects.empty())
   {
     const std::vector<std::size_t> inverted = chosenThat(

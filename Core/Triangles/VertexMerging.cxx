@@ -167,8 +167,8 @@ public:
     this->AreFixed.resize(count, 0);
     this->Result.triangles = std::move(triangles.triangles);
     this->Result.caps = std::move(triangles.caps);
-    this->Result.members = numbersBelow(count);
-    this->Result.memberBegins = numbersBelow(count + 1);
+    this->Result.members = iota(count);
+    this->Result.memberBegins = iota(count + 1);
   }
 
   CrossingMesh merge()
@@ -258,8 +258,8 @@ private:
   }
 
   /// Unmerges parts whose merging would invert a triangle. If the rim stays, all triangles count,
-  /// otherwise only caps, which are flat. @returns whether any was unmerged: the others then have to
-  /// be tested again
+  /// otherwise only caps, which are flat. @returns whether any was unmerged: the others then have
+  /// to be tested again
   bool unmergeInverting(const SurfaceMesh& mesh, const VertexParts& parts, const CapRim& rim,
     const Placement& placement, const std::vector<Vector>& former,
     std::vector<char>& areMerged) const
@@ -325,7 +325,7 @@ private:
   {
     const std::vector<std::size_t>& former = this->Result.members;
     const std::vector<std::size_t>& formerBegins = this->Result.memberBegins;
-    std::vector<std::size_t> begins = beginsOfLists(this->Run, count,
+    std::vector<std::size_t> begins = offsetsFromSizes(this->Run, count,
       [&](std::size_t i)
       {
         std::size_t size = 0;

@@ -242,8 +242,9 @@ isopoint::ProbedArray probedArray(const vtkIsopointSampleArray& array,
     probed.values = doubles->GetPointer(0);
     return probed;
   }
-  probed.take = [result, parts = array.Parts, sampleIds = vtkIsopointSampleIds(blocks),
-                  nothing = heldBy(result, nothing)](std::size_t place, const std::uint64_t* id)
+  probed.writeNearest = [result, parts = array.Parts, sampleIds = vtkIsopointSampleIds(blocks),
+                          nothing = heldBy(result, nothing)](
+                          std::size_t place, const std::uint64_t* id)
   {
     const auto to = static_cast<vtkIdType>(place);
     if (id)

@@ -32,7 +32,7 @@ struct vtkIsopointOptions
     {
       text << " " << value + 0.0; // 0 and -0 are the same
     }
-    isopoint::forEachOption(
+    isopoint::forEffectiveOptions(
       this->Core, [&](const auto& option) { text << " " << this->Core.*option.value + 0.0; });
     return text.str();
   }

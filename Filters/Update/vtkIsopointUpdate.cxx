@@ -49,7 +49,7 @@ void vtkIsopointUpdate::Clear()
 namespace
 {
 
-unsigned long errorCodeOf(isopoint::Failure::Kinds kind)
+unsigned long errorCodeOf(isopoint::Failure::Kind kind)
 {
   switch (kind)
   {

@@ -106,7 +106,7 @@ bool Picture::addSamples(const isopoint::Execution& execution, const Camera& cam
           asked = Clock::now();
           const double share = static_cast<double>(row + 1) / this->Height;
           execution.progress((sample - first + share) / (last - first));
-          isAborted = execution.aborted();
+          isAborted = execution.isAborted();
         }
       }
     };

@@ -83,7 +83,7 @@ TEST(Collected, IsWhatAllRangesFindInTheirOrder)
 TEST(Collected, JoinsListsInTheirOrder)
 {
   const auto joined = [](const std::vector<std::vector<int>>& lists)
-  { return isopoint::joined(clouds::executionOn(2), lists, isopoint::beginsOf(lists)); };
+  { return isopoint::joined(clouds::executionOn(2), lists, isopoint::offsetsOf(lists)); };
   EXPECT_EQ(joined({}), std::vector<int>());
   EXPECT_EQ(joined({ { 3, 1 }, {}, { 2 } }), (std::vector<int>{ 3, 1, 2 }));
 }

@@ -67,7 +67,7 @@ bool expectRecovery(const Fault& fault, const std::vector<clouds::Cloud>& pieces
       int questions = 0;
       if (fault.abort >= 0 && processes.rank() == 1)
       {
-        execution.aborted = [&]() { return questions++ >= fault.abort; };
+        execution.isAborted = [&]() { return questions++ >= fault.abort; };
       }
       isopoint::IsosurfaceExtractor extractor;
       bool isLoaded = false;

@@ -304,7 +304,7 @@ TEST(Picture, EndsAndGoesOn)
   isopoint::Execution execution;
   isopoint::useThreads(execution, 3);
   int calls = 0;
-  execution.aborted = [&calls]() { return ++calls <= 2; };
+  execution.isAborted = [&calls]() { return ++calls <= 2; };
   while (!interrupted.addSamples(execution, cameraOf(1.2), tracer, 200))
   {
   }

@@ -268,7 +268,7 @@ TEST(Regularization, EveryStepAsksForAborts)
   constexpr std::size_t most = 16384; // triangles between two questions
   std::size_t asked = 0;
   Execution execution;
-  execution.aborted = [&asked]()
+  execution.isAborted = [&asked]()
   {
     ++asked;
     return false;

@@ -223,14 +223,14 @@ TEST(SameResult, AfterAnAbortAtAnyTime)
   {
     int asked = 0;
     Execution counting;
-    counting.aborted = [&asked]() { return ++asked < 0; };
+    counting.isAborted = [&asked]() { return ++asked < 0; };
     const ExtractedIsosurface expected = loaded(cloud).extract(counting, request);
     ASSERT_GT(asked, 20);
     for (int last = 0; last < asked; last += 1 + asked / 12)
     {
       int left = last;
       Execution aborting;
-      aborting.aborted = [&left]() { return left-- <= 0; };
+      aborting.isAborted = [&left]() { return left-- <= 0; };
       IsosurfaceExtractor extractor = loaded(cloud);
       EXPECT_THROW(extractor.extract(aborting, request), Aborted);
       expectSame(expected, extractor.extract(clouds::executionOn(2), request));

@@ -449,7 +449,7 @@ TEST(SplatMesh, ReportsProgressAndStopsAtAnyTime)
     share = done;
     reported.push_back(done);
   };
-  execution.aborted = [&]()
+  execution.isAborted = [&]()
   {
     shares.push_back(share);
     return false;
@@ -466,7 +466,7 @@ TEST(SplatMesh, ReportsProgressAndStopsAtAnyTime)
   for (std::size_t at = 1; at <= most; at += 1 + most / 4)
   {
     std::size_t asked = 0;
-    execution.aborted = [&]() { return ++asked >= at; };
+    execution.isAborted = [&]() { return ++asked >= at; };
     EXPECT_THROW(static_cast<void>(splats.mesh(execution)), Aborted);
     EXPECT_EQ(asked, at) << "work goes on";
   }
