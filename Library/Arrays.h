@@ -10,37 +10,27 @@
 #include <cstring>
 #include <limits>
 #include <string>
+#include <tuple>
 
 namespace isopoint
 {
 
-/// Calls visit with a number of an isopoint_type, as ArrayReader checked it.
-template <class Visitor>
+/// The types of numbers, by isopoint_type.
+using NumberTypes = std::tuple<float, double, std::int8_t, std::uint8_t, std::int16_t,
+  std::uint16_t, std::int32_t, std::uint32_t, std::int64_t, std::uint64_t>;
+
+/// Calls visit with a number of a type, one that ArrayReader has checked.
+template <std::int32_t Type = ISOPOINT_FLOAT, class Visitor>
 decltype(auto) withType(std::int32_t type, const Visitor& visit)
 {
-  switch (type)
+  if constexpr (Type < ISOPOINT_UINT64)
   {
-    case ISOPOINT_FLOAT:
-      return visit(float{});
-    case ISOPOINT_DOUBLE:
-      return visit(double{});
-    case ISOPOINT_INT8:
-      return visit(std::int8_t{});
-    case ISOPOINT_UINT8:
-      return visit(std::uint8_t{});
-    case ISOPOINT_INT16:
-      return visit(std::int16_t{});
-    case ISOPOINT_UINT16:
-      return visit(std::uint16_t{});
-    case ISOPOINT_INT32:
-      return visit(std::int32_t{});
-    case ISOPOINT_UINT32:
-      return visit(std::uint32_t{});
-    case ISOPOINT_INT64:
-      return visit(std::int64_t{});
-    default:
-      return visit(std::uint64_t{});
+    if (type != Type)
+    {
+      return withType<Type + 1>(type, visit);
+    }
   }
+  return visit(std::tuple_element_t<Type, NumberTypes>{});
 }
 
 inline bool isFloatingPoint(std::int32_t type)

@@ -15,16 +15,15 @@ namespace
 
 static_assert( // see takeOptions()
   sizeof(isopoint_options) == offsetof(isopoint_options, minimum_piece_size) + sizeof(double));
-static_assert(isSame(FitOrder::Linear, ISOPOINT_PROJECTION_LINEAR) &&
-              isSame(FitOrder::Quadratic, ISOPOINT_PROJECTION_QUADRATIC) &&
-              isSame(FitOrder::Cubic, ISOPOINT_PROJECTION_CUBIC) &&
-              isSame(FitOrder::Crease, ISOPOINT_PROJECTION_CREASE));
-static_assert(isSame(NormalMethod::Automatic, ISOPOINT_NORMALS_AUTOMATIC) &&
-              isSame(NormalMethod::Field, ISOPOINT_NORMALS_FROM_FIELD) &&
-              isSame(NormalMethod::Planes, ISOPOINT_NORMALS_FROM_PLANES));
-static_assert(isSame(Precision::Single, ISOPOINT_PRECISION_SINGLE) &&
-              isSame(Precision::Double, ISOPOINT_PRECISION_DOUBLE) &&
-              isSame(Precision::Default, ISOPOINT_PRECISION_INPUT));
+static_assert(
+  haveSameNumbers({ FitOrder::Linear, FitOrder::Quadratic, FitOrder::Cubic, FitOrder::Crease },
+    { ISOPOINT_PROJECTION_LINEAR, ISOPOINT_PROJECTION_QUADRATIC, ISOPOINT_PROJECTION_CUBIC,
+      ISOPOINT_PROJECTION_CREASE }));
+static_assert(
+  haveSameNumbers({ NormalMethod::Automatic, NormalMethod::Field, NormalMethod::Planes },
+    { ISOPOINT_NORMALS_AUTOMATIC, ISOPOINT_NORMALS_FROM_FIELD, ISOPOINT_NORMALS_FROM_PLANES }));
+static_assert(haveSameNumbers({ Precision::Single, Precision::Double, Precision::Default },
+  { ISOPOINT_PRECISION_SINGLE, ISOPOINT_PRECISION_DOUBLE, ISOPOINT_PRECISION_INPUT }));
 
 /// Calls visit(name, member of isopoint_options, member of Options) for each option.
 template <class Visitor>

@@ -20,16 +20,16 @@ namespace isopoint
 namespace
 {
 
-static_assert(isSame(PlaceMethod::Blend, ISOPOINT_PROBE_BLEND) &&
-              isSame(PlaceMethod::Cubic, ISOPOINT_PROBE_CUBIC) &&
-              isSame(PlaceMethod::Quadratic, ISOPOINT_PROBE_QUADRATIC) &&
-              isSame(PlaceMethod::Affine, ISOPOINT_PROBE_AFFINE) &&
-              isSame(PlaceMethod::Nearest, ISOPOINT_PROBE_NEAREST));
-static_assert(isSame(OutsideStrategy::Number, ISOPOINT_PROBE_OUTSIDE_NUMBER) &&
-              isSame(OutsideStrategy::Nearest, ISOPOINT_PROBE_OUTSIDE_NEAREST) &&
-              isSame(OutsideStrategy::Extrapolate, ISOPOINT_PROBE_OUTSIDE_EXTRAPOLATE));
+static_assert(haveSameNumbers({ PlaceMethod::Blend, PlaceMethod::Cubic, PlaceMethod::Quadratic,
+                                PlaceMethod::Affine, PlaceMethod::Nearest },
+  { ISOPOINT_PROBE_BLEND, ISOPOINT_PROBE_CUBIC, ISOPOINT_PROBE_QUADRATIC, ISOPOINT_PROBE_AFFINE,
+    ISOPOINT_PROBE_NEAREST }));
+static_assert(haveSameNumbers(
+  { OutsideStrategy::Number, OutsideStrategy::Nearest, OutsideStrategy::Extrapolate },
+  { ISOPOINT_PROBE_OUTSIDE_NUMBER, ISOPOINT_PROBE_OUTSIDE_NEAREST,
+    ISOPOINT_PROBE_OUTSIDE_EXTRAPOLATE }));
 static_assert(
-  isSame(PlaceOutside, ISOPOINT_PLACE_OUTSIDE) && isSame(PlaceFlat, ISOPOINT_PLACE_FLAT));
+  haveSameNumbers({ PlaceOutside, PlaceFlat }, { ISOPOINT_PLACE_OUTSIDE, ISOPOINT_PLACE_FLAT }));
 
 /// A number as a type: without a fraction, and 0 beyond the range of integers.
 template <class T>
@@ -126,19 +126,18 @@ ProbeOptions probeOptionsFrom(const isopoint_probe_options* given)
     constexpr std::size_t sizeOf1_0 = 24;
     takeOptions(*given, sizeOf1_0, "isopoint_initialize_probe_options()", all);
   }
-  if (all.method < ISOPOINT_PROBE_BLEND || all.method > ISOPOINT_PROBE_NEAREST)
+  const auto requireUpTo = [](std::int32_t number, std::int32_t most, const std::string& option)
   {
-    throw UsageError(
-      "The method is " + std::to_string(all.method) + ". Use an isopoint_probe_method, 0 to 4.",
-      UsageError::Option);
-  }
-  if (all.outside < ISOPOINT_PROBE_OUTSIDE_NUMBER ||
-      all.outside > ISOPOINT_PROBE_OUTSIDE_EXTRAPOLATE)
-  {
-    throw UsageError("The option outside is " + std::to_string(all.outside) +
-                       ". Use an isopoint_probe_outside, 0 to 2.",
-      UsageError::Option);
-  }
+    if (number < 0 || number > most)
+    {
+      throw UsageError("The option " + option + " is " + std::to_string(number) +
+                         ". Use an isopoint_probe_" + option + ", 0 to " + std::to_string(most) +
+                         ".",
+        UsageError::Option);
+    }
+  };
+  requireUpTo(all.method, ISOPOINT_PROBE_NEAREST, "method");
+  requireUpTo(all.outside, ISOPOINT_PROBE_OUTSIDE_EXTRAPOLATE, "outside");
   return { static_cast<PlaceMethod>(all.method), static_cast<OutsideStrategy>(all.outside),
     all.outside_number };
 }

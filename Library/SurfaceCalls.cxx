@@ -30,20 +30,16 @@ isopoint_status isopoint_set_surface_callbacks(isopoint_surface* surface,
 namespace
 {
 
-using isopoint::isSame;
 using isopoint::Message;
-static_assert(isSame(Message::SkippedSamples, ISOPOINT_MESSAGE_SKIPPED_SAMPLES) &&
-              isSame(Message::NoSamples, ISOPOINT_MESSAGE_NO_SAMPLES) &&
-              isSame(Message::ConstantValues, ISOPOINT_MESSAGE_CONSTANT_VALUES) &&
-              isSame(Message::IsovalueOutside, ISOPOINT_MESSAGE_ISOVALUE_OUTSIDE) &&
-              isSame(Message::TooFewSamples, ISOPOINT_MESSAGE_TOO_FEW_SAMPLES) &&
-              isSame(Message::AllInGaps, ISOPOINT_MESSAGE_ALL_IN_GAPS) &&
-              isSame(Message::NoCrossing, ISOPOINT_MESSAGE_NO_CROSSING) &&
-              isSame(Message::PointsWithoutFit, ISOPOINT_MESSAGE_POINTS_WITHOUT_FIT) &&
-              isSame(Message::SplatsApart, ISOPOINT_MESSAGE_SPLATS_APART) &&
-              isSame(Message::BeyondFloat, ISOPOINT_MESSAGE_BEYOND_FLOAT) &&
-              isSame(Message::NoIsovalues, ISOPOINT_MESSAGE_NO_ISOVALUES) &&
-              isSame(Message::OnlyAtSamples, ISOPOINT_MESSAGE_ONLY_AT_SAMPLES));
+static_assert(isopoint::haveSameNumbers(
+  { Message::SkippedSamples, Message::NoSamples, Message::ConstantValues, Message::IsovalueOutside,
+    Message::TooFewSamples, Message::AllInGaps, Message::NoCrossing, Message::PointsWithoutFit,
+    Message::SplatsApart, Message::BeyondFloat, Message::NoIsovalues, Message::OnlyAtSamples },
+  { ISOPOINT_MESSAGE_SKIPPED_SAMPLES, ISOPOINT_MESSAGE_NO_SAMPLES, ISOPOINT_MESSAGE_CONSTANT_VALUES,
+    ISOPOINT_MESSAGE_ISOVALUE_OUTSIDE, ISOPOINT_MESSAGE_TOO_FEW_SAMPLES,
+    ISOPOINT_MESSAGE_ALL_IN_GAPS, ISOPOINT_MESSAGE_NO_CROSSING, ISOPOINT_MESSAGE_POINTS_WITHOUT_FIT,
+    ISOPOINT_MESSAGE_SPLATS_APART, ISOPOINT_MESSAGE_BEYOND_FLOAT, ISOPOINT_MESSAGE_NO_ISOVALUES,
+    ISOPOINT_MESSAGE_ONLY_AT_SAMPLES }));
 
 /// Whether options have the same effect.
 bool areSame(const isopoint::Options& first, const isopoint::Options& second)

@@ -8,16 +8,22 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 #include <string>
 
 namespace isopoint
 {
 
-/// Whether an enumerator of the core has the number of one of C, so that casts convert them.
+/// Whether enumerators of the core have the numbers of those of C, so that casts convert them.
 template <class Core, class C>
-constexpr bool isSame(Core core, C c)
+constexpr bool haveSameNumbers(std::initializer_list<Core> core, std::initializer_list<C> c)
 {
-  return static_cast<int>(core) == static_cast<int>(c);
+  bool areSame = core.size() == c.size();
+  for (std::size_t i = 0; areSame && i < core.size(); ++i)
+  {
+    areSame = static_cast<int>(core.begin()[i]) == static_cast<int>(c.begin()[i]);
+  }
+  return areSame;
 }
 
 /// Takes over options of a program that was compiled against any version 1.x: members that it does
