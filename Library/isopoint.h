@@ -24,8 +24,8 @@
  * Threads: use each extractor, surface and isopoint_neighborhoods on one thread at a time. Different
  * objects, also an extractor and what it made, may be used on different threads at the same time.
  * Results do not depend on the number of threads. A process forked from one that used several
- * threads uses one. In a process forked while a call was running, later calls return ISOPOINT_FORKED,
- * because they could deadlock.
+ * threads uses one. In a process forked while a call was running, later calls that return a status
+ * return ISOPOINT_FORKED, because they could deadlock.
  *
  * Errors: functions that can fail return an isopoint_status, and isopoint_get_error() returns the
  * cause and the remedy. Pointers to objects are written only on success. Lack of memory is an error
@@ -169,8 +169,8 @@ typedef struct isopoint_options
   /* Triangles only: whether to merge vertices and flip edges, which gives fewer and well-shaped
    * triangles. 0: the exact isosurface of the Delaunay tetrahedralization. */
   int32_t regularize; /* Default: 1 */
-  /* Triangles only, for slices. 1: gaps begin only at edges that span a void, not at flat tetrahedra
-   * on the convex hull, and vertices of the rim do not merge: the slice ends where the body ends. */
+  /* Triangles only. 1, for slices: the surface ends where the body ends. Gaps begin only at edges
+   * across a void, not at flat tetrahedra on the convex hull. Vertices of the rim do not merge. */
   int32_t keep_hull_slivers; /* Default: 0 */
   /* Triangles only: whether the surface is that of the body of the samples at or above the isovalue,
    * closed by caps where the samples end. Not with projection CREASE. */
@@ -305,8 +305,8 @@ typedef enum isopoint_place_flag
  * Outside: a place is outside if all 27 nearest samples lie on one side of it, or if its nearest
  * sample s is farther than 0.9 d, d being the distance from s to the eighth nearest sample of the
  * place. Within 0.001 d of s it is inside. Places whose coordinates are not finite, or whose squared
- * distances overflow, are outside. Where the number is the value, gradients
- * are NaN; where the nearest sample gives it, 0.
+ * distances overflow, are outside. Gradients outside are NaN where the value is `outside_number`, and 0
+ * where it is that of the nearest sample.
  *
  * Flat: where samples are in a plane or on a line, results are those at the nearest point of it, and
  * gradients have no part across.
@@ -442,8 +442,8 @@ typedef enum isopoint_message_code
 } isopoint_message_code;
 
 /* A message for the user about a result, such as skipped samples or an isovalue without a surface:
- * a sentence, and the remedy. Null if there is no message of this index. It is valid until the surface
- * is destroyed, or isopoint_join_messages() changes its messages; so is its cause below.
+ * a sentence, and the remedy. Null if there is no message of this index. The message and its cause
+ * (below) are valid until the surface is destroyed, or isopoint_join_messages() changes them.
  * @param index from 0
  * @param is_warning null, or receives 1 if the result is not what was requested, otherwise 0 */
 ISOPOINT_API const char* isopoint_get_message(
