@@ -21,8 +21,8 @@ public:
   /// What the rank of the calling thread has exchanged, apart from reductions.
   struct Traffic
   {
-    std::uint64_t sent = 0; // bytes to other ranks
-    std::uint64_t exchanges = 0;
+    std::uint64_t sent; // bytes to other ranks
+    std::uint64_t exchanges;
   };
   inline static thread_local Traffic traffic{};
 
