@@ -1,4 +1,4 @@
-# Installs all components to a fresh prefix; Python package, plugin and CMake package must work from there alone.
+# Installs to a fresh prefix; Python package, plugin and CMake package must work from there alone.
 function (run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result)
   if (NOT result EQUAL 0)
@@ -7,9 +7,13 @@ function (run)
 endfunction ()
 
 file(REMOVE_RECURSE "${PREFIX}")
-foreach (component package python runtime development)
-  run("${CMAKE_COMMAND}" --install "${BUILD_DIR}" --prefix "${PREFIX}" --component ${component})
+run("${CMAKE_COMMAND}" --install "${BUILD_DIR}" --prefix "${PREFIX}" --component development)
+foreach (file include/isopoint.h "${LIB_DIR}/cmake/isopoint/isopointConfig.cmake" "${LIB_DIR}/pkgconfig/isopoint.pc")
+  if (NOT EXISTS "${PREFIX}/${file}")
+    message(FATAL_ERROR "The component development lacks ${file}.")
+  endif ()
 endforeach ()
+run("${CMAKE_COMMAND}" --install "${BUILD_DIR}" --prefix "${PREFIX}")
 run("${CMAKE_COMMAND}" -E env "PYTHONPATH=${PREFIX}/${PYTHON_DIR}"
   "${PYTHON}" "${SOURCE_DIR}/Testing/Python/TestContour.py")
 file(REMOVE_RECURSE "${PREFIX}-consumer")
