@@ -49,7 +49,7 @@ class Signatures(unittest.TestCase):
     """The declarations of _library are those of the header."""
 
     C_TYPES = {"void*": ctypes.c_void_p, "double*": ctypes.POINTER(ctypes.c_double),
-               "int32_t": ctypes.c_int32, "int64_t": ctypes.c_int64, "uint64_t": ctypes.c_uint64,
+               "int32_t": ctypes.c_int32, "size_t": ctypes.c_size_t, "int64_t": ctypes.c_int64, "uint64_t": ctypes.c_uint64,
                "double": ctypes.c_double, "const void*": ctypes.c_void_p}
 
     @classmethod
