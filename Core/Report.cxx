@@ -80,6 +80,21 @@ int digitsFor(const Report& report, const std::vector<double>& isovalues)
   return std::numeric_limits<double>::max_digits10;
 }
 
+constexpr std::uint64_t fewestSamples = 4; // of a tetrahedron
+
+std::uint64_t usedCount(const Report& report)
+{
+  return report.samples - report.skippedCount();
+}
+
+std::string describeTooFew(const Report& report)
+{
+  const std::uint64_t used = usedCount(report);
+  return (used == 1 ? "there is only 1 sample"
+                    : "there are only " + std::to_string(used) + " samples") +
+         std::string(". Add samples around the surface.");
+}
+
 Message describeIsovaluesOutside(const Report& report, const std::vector<double>& outside)
 {
   if (outside.empty())
@@ -88,11 +103,16 @@ Message describeIsovaluesOutside(const Report& report, const std::vector<double>
   }
   const int digits = digitsFor(report, outside);
   const std::string least = textOf(report.least, digits);
+  if (report.least == report.greatest && usedCount(report) < fewestSamples)
+  {
+    return { "too few samples of " + report.array, "No isosurface: " + describeTooFew(report),
+      Message::Warning, Message::TooFewSamples };
+  }
   if (report.least == report.greatest)
   {
     return { "constant array " + report.array,
       "No isosurface: all values of " + describeArray(report) + " are " + least +
-        ". Choose another array.",
+        ". Choose another array" + (report.areCapped ? ", or a lower isovalue." : "."),
       Message::Warning, Message::ConstantValues };
   }
   const std::string isovalues = join(outside, digits);
@@ -118,12 +138,9 @@ using Reason = std::pair<Message::Code, std::string>;
 /// Why an isovalue in the range has no surface, and the remedy.
 Reason reasonOfEmptyIsovalue(const Report& report, bool isInGaps, OptionNaming naming)
 {
-  constexpr std::uint64_t fewest = 4; // of a tetrahedron
-  const std::uint64_t used = report.samples - report.skippedCount();
-  if (used < fewest)
+  if (usedCount(report) < fewestSamples)
   {
-    return { Message::TooFewSamples,
-      "there are only " + std::to_string(used) + " samples. Add samples around the surface." };
+    return { Message::TooFewSamples, describeTooFew(report) };
   }
   if (isInGaps)
   {
@@ -166,31 +183,44 @@ Message describeEmptyIsovalues(
 /// Why all slices are empty, or that one is partial. Some may be beside the samples.
 Message describeSlices(const Report& report, OptionNaming naming)
 {
-  const auto isAny = [&](double from, double to)
+  const auto isAny = [&](double from, double to, std::uint64_t leastPoints = 0)
   {
-    return std::any_of(report.isovalues.begin(), report.isovalues.end(),
-      [&](double value) { return value >= from && value <= to; });
+    for (std::size_t i = 0; i < report.isovalues.size(); ++i)
+    {
+      if (report.isovalues[i] >= from && report.isovalues[i] <= to &&
+          report.points[i] >= leastPoints)
+      {
+        return true;
+      }
+    }
+    return false;
   };
   const double least = report.least;
   const double greatest = report.greatest;
   // Up to rounding, as by a box in the bounds of the samples.
-  const bool isOutermost = isAny(greatest - 1e-9 * (greatest - least), greatest);
+  constexpr double rounding = 1e-9;
+  const double outermost = greatest - (rounding * greatest - rounding * least);
   const std::string remedy = " Move it among the samples; make a box or a sphere smaller.";
   if (report.pointCount() > 0)
   {
     const Message atSamples{ "outermost slice",
       "The slice is only where samples are on it, as no sample is beyond it." + remedy,
       Message::Note, Message::OnlyAtSamples };
-    return isOutermost ? atSamples : Message();
+    return isAny(outermost, greatest, 1) ? atSamples : Message();
   }
   Reason reason{ Message::IsovalueOutside,
     "all samples are on one side of it. Move it among the samples." };
   if (least == greatest)
   {
-    reason = { Message::ConstantValues,
-      "the cut function is the same at all samples. Choose one that has samples on both sides." };
+    reason =
+      usedCount(report) < fewestSamples
+        ? Reason{ Message::TooFewSamples, describeTooFew(report) }
+        : Reason{
+            Message::ConstantValues,
+            "the cut function is the same at all samples. Choose one that has samples on both sides."
+          };
   }
-  else if (isOutermost)
+  else if (isAny(outermost, greatest))
   {
     reason.second = "no sample is beyond it." + remedy;
   }
@@ -444,6 +474,7 @@ void Report::countSurface(std::size_t isovalue, const ExtractedIsosurface& surfa
 
 void Report::add(const Report& other)
 {
+  const std::uint64_t before = this->samples;
   std::transform(this->points.begin(), this->points.end(), other.points.begin(),
     this->points.begin(), std::plus<>());
   std::transform(this->dropped.begin(), this->dropped.end(), other.dropped.begin(),
@@ -460,7 +491,7 @@ void Report::add(const Report& other)
   this->least = std::min(this->least, other.least);
   this->greatest = std::max(this->greatest, other.greatest);
   this->areSinglePoints = this->areSinglePoints || other.areSinglePoints;
-  this->contoursBlocks = true;
+  this->contoursBlocks = this->contoursBlocks || (before > 0 && other.samples > 0);
 }
 
 void Report::share(ProcessGroup& processes)

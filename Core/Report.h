@@ -100,7 +100,7 @@ struct Report : SampleCounts
   bool areCapped = false;               // whether the surface is that of a body
   bool areProjected = false;            // whether fits were to move points
   bool areSinglePoints = false;         // whether positions become float
-  bool contoursBlocks = false;          // whether each block is its own cloud
+  bool contoursBlocks = false;          // whether several blocks are clouds of their own
   std::uint64_t unprojectedPoints = 0;  // not moved by a fit
   std::uint64_t innerCorners = 0;       // of splats, see SplatCornerCounts
   std::uint64_t cornersApart = 0;       // corners that meet no others

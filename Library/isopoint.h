@@ -231,7 +231,8 @@ ISOPOINT_API isopoint_status isopoint_set_value_name(
  * a later time step takes a fraction of the time.
  *
  * Samples with a non-finite position or value are skipped; see isopoint_get_message(). Coincident
- * samples count as one, with the mean value. 64-bit integers are rounded to double. Integer values
+ * samples are one, with the mean value; but the tree counts each, so that repeated samples can change
+ * which samples are neighbors. 64-bit integers are rounded to double. Integer values
  * are assumed to be rounded: their standard error is 1/sqrt(12). Fits do not try to resolve smaller
  * differences. If an array cannot be used, the extractor keeps its former samples; after other errors
  * it has none.
@@ -416,7 +417,7 @@ ISOPOINT_API void isopoint_destroy_surface(isopoint_surface* surface);
 /* Set the maximum number of threads and the callbacks of isopoint_interpolate(),
  * isopoint_make_splat_mesh() and isopoint_average_at_splat_vertices(), as
  * isopoint_set_extractor_threads() and isopoint_set_extractor_callbacks() do. At first a surface has
- * the number of threads of its extractor, or 0, and no callbacks. */
+ * the number of threads of its extractor, or 0, and no callbacks. Short calls report no progress. */
 ISOPOINT_API isopoint_status isopoint_set_surface_threads(
   isopoint_surface* surface, int32_t threads);
 ISOPOINT_API isopoint_status isopoint_set_surface_callbacks(isopoint_surface* surface,

@@ -86,7 +86,7 @@ void vtkIsopointContouring::StartCounting(const std::vector<double>& isovalues)
   const char* const name =
     blocks.GetBlocks().empty() ? nullptr : blocks.GetBlocks().front().Scalars->GetName();
   counts.array = name ? name : "";
-  counts.contoursBlocks = this->Options.ContourBlocks;
+  counts.contoursBlocks = this->Options.ContourBlocks && blocks.GetBlocks().size() > 1;
   this->Report = std::move(counts);
 }
 

@@ -63,6 +63,8 @@ def compute_slice(samples: Samples, cut: Cut, levels: list[float], options: _lib
             points = _moved_onto(samples, cut, at_samples, surface, points, of_samples, found)
         if method is not None and len(points):
             _fit(samples, points, of_samples, found, method, part(report, 0.6, 1.0))
+    if report is not None:
+        report(1.0)
     made = Isosurface(points, triangles=_library.view(surface, _library.TRIANGLES), arrays=found,
                       make_polydata=replace(samples._maker, normals=None), threads=threads)
     return made, _library.messages(surface)

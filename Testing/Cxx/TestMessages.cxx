@@ -168,6 +168,16 @@ TEST(Messages, TooFewSamplesAreCounted)
   const Words messages = messagesOf(newFilter<Isosurface>(cloud, 0.5 * (limits[0] + limits[1])));
   expectOne(messages, { "only 3 samples", "Add samples" });
   EXPECT_EQ(messages.front().find("DropGaps"), std::string::npos);
+  expectOne(messagesOf(newFilter<Isosurface>(newCloud(1))), { "only 1 sample." });
+}
+
+TEST(Messages, OneBlockHasTheMessageOfItsCloud)
+{
+  const auto cloud = newCloud(500);
+  move(cloud->GetPoints(), [](const Vector& p) { return Vector{ p[0], p[1], 0.0 }; });
+  const auto filter = newFilter<Isosurface>(blocksOf({ cloud }));
+  filter->ContourBlocksOn();
+  expectOneWarning(filter, { "plane", "Delaunay 2D" });
 }
 
 TEST(Messages, NamesOfPropertiesCanBeThoseOfParaViewsPanel)

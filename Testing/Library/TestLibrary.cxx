@@ -307,8 +307,15 @@ TEST(Library, SlicesAndBodiesHaveTheirOwnMessages)
     ISOPOINT_MESSAGE_ISOVALUE_OUTSIDE);
   expectMessage(cloud, { *least }, slicing, "No slice: samples on it count as above it",
     ISOPOINT_MESSAGE_ISOVALUE_OUTSIDE);
-  expectMessage(cloud, { *greatest, 0.7 }, slicing, "The slice is only where samples are on it",
+  expectMessage(cloud, { *greatest, 0.7 }, slicing, "", 0); // nothing is at the greatest value
+  Cloud level; // at and beyond 0.7, with a range that double does not hold
+  for (double& value : level.values)
+  {
+    value = value < 0.7 ? -1e308 : 1e308;
+  }
+  expectMessage(level, { 1e308 }, slicing, "The slice is only where samples are on it",
     ISOPOINT_MESSAGE_ONLY_AT_SAMPLES);
+  expectMessage(level, { 0.0 }, slicing, "", 0);
   expectMessage(
     cloud, {}, slicing, "No slice: there are no offsets.", ISOPOINT_MESSAGE_NO_ISOVALUES);
   expectMessage(cloud, {}, withTriangles, "No isosurface: there are no isovalues. Set one.",

@@ -195,9 +195,9 @@ class Calls(unittest.TestCase):
                 slice_samples(POSITIONS, arrays=POSITIONS, **options)
 
     def test_threads_and_progress(self):
-        expected = slice_samples(POSITIONS, arrays=POSITIONS, threads=1)
+        expected = slice_samples(POSITIONS, arrays=POSITIONS, threads=1, interpolation="linear")
         fractions = []
-        found = slice_samples(POSITIONS, arrays=POSITIONS, threads=3, progress=fractions.append)
+        found = slice_samples(POSITIONS, arrays=POSITIONS, threads=3, interpolation="linear", progress=fractions.append)
         self.assertEqual(found.arrays["values"].tobytes(), expected.arrays["values"].tobytes())
         self.assertEqual((fractions, fractions[-1]), (sorted(fractions), 1))
 
