@@ -48,8 +48,8 @@ def contents(surface: Isosurface):
 class Signatures(unittest.TestCase):
     """The declarations of _library are those of the header."""
 
-    C_TYPES = {"void*": ctypes.c_void_p, "double*": ctypes.POINTER(ctypes.c_double),
-               "int32_t": ctypes.c_int32, "size_t": ctypes.c_size_t, "int64_t": ctypes.c_int64, "uint64_t": ctypes.c_uint64,
+    C_TYPES = {"void*": ctypes.c_void_p, "double*": ctypes.POINTER(ctypes.c_double), "size_t": ctypes.c_size_t,
+               "int32_t": ctypes.c_int32, "int64_t": ctypes.c_int64, "uint64_t": ctypes.c_uint64,
                "double": ctypes.c_double, "const void*": ctypes.c_void_p}
 
     @classmethod
@@ -364,7 +364,8 @@ class Results(unittest.TestCase):
         with self.assertWarnsRegex(RuntimeWarning, "No isosurface at 99"):
             points = contour(positions, values, 99.0)
         self.assertEqual((points.points.shape, points.triangles), ((0, 3), None))
-        self.assertEqual(len(contour(positions, values, [])), 0)
+        with self.assertWarnsRegex(RuntimeWarning, "there are no isovalues. Set one."):
+            self.assertEqual(len(contour(positions, values, [])), 0)
 
     def test_messages_of_many_isovalues_are_short(self):
         with self.assertWarns(RuntimeWarning) as caught:
