@@ -53,6 +53,7 @@ def file_to_write(path: str) -> Iterator[str]:
     try:
         if not is_device:
             open(target, "wb").close()
+            os.unlink(target)  # what writes nothing must not leave an empty file
         yield target
         os.replace(target, path)
     finally:
