@@ -56,7 +56,7 @@ class Samples:
         As in :func:`contour`.
     values
         As in :func:`contour`; None: without values, for :meth:`probe`, :meth:`slice` and :meth:`body`. A sample whose
-        value is not finite takes no part in any call.
+        value is not finite takes no part in contours, values and gradients. Bodies and slices need positions alone.
     threads
         As in :func:`contour`. It is the default of the methods, too.
     progress
