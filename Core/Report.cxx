@@ -183,12 +183,12 @@ Message describeEmptyIsovalues(
 /// Why all slices are empty, or that one is partial. Some may be beside the samples.
 Message describeSlices(const Report& report, OptionNaming naming)
 {
-  const auto isAny = [&](double from, double to, std::uint64_t leastPoints = 0)
+  const auto isAny = [&](double from, double to, std::uint64_t fewestPoints = 0)
   {
     for (std::size_t i = 0; i < report.isovalues.size(); ++i)
     {
       if (report.isovalues[i] >= from && report.isovalues[i] <= to &&
-          report.points[i] >= leastPoints)
+          report.points[i] >= fewestPoints)
       {
         return true;
       }
@@ -201,24 +201,26 @@ Message describeSlices(const Report& report, OptionNaming naming)
   constexpr double rounding = 1e-9;
   const double outermost = greatest - (rounding * greatest - rounding * least);
   const std::string remedy = " Move it among the samples; make a box or a sphere smaller.";
-  if (report.pointCount() > 0)
+  if (isAny(outermost, greatest, 1))
   {
-    const Message atSamples{ "outermost slice",
+    return { "outermost slice",
       "The slice is only where samples are on it, as no sample is beyond it." + remedy,
       Message::Note, Message::OnlyAtSamples };
-    return isAny(outermost, greatest, 1) ? atSamples : Message();
+  }
+  if (report.pointCount() > 0)
+  {
+    return {};
   }
   Reason reason{ Message::IsovalueOutside,
     "all samples are on one side of it. Move it among the samples." };
-  if (least == greatest)
+  if (least == greatest && usedCount(report) < fewestSamples)
   {
-    reason =
-      usedCount(report) < fewestSamples
-        ? Reason{ Message::TooFewSamples, describeTooFew(report) }
-        : Reason{
-            Message::ConstantValues,
-            "the cut function is the same at all samples. Choose one that has samples on both sides."
-          };
+    reason = { Message::TooFewSamples, describeTooFew(report) };
+  }
+  else if (least == greatest)
+  {
+    reason = { Message::ConstantValues,
+      "the cut function is the same at all samples. Choose one that has samples on both sides." };
   }
   else if (isAny(outermost, greatest))
   {

@@ -14,7 +14,7 @@
 namespace isopoint
 {
 
-/// Whether enumerators of the core have the numbers of those of C, so that casts convert them.
+/// Whether the core's enumerators have the same numbers as those in C, so that a cast converts them.
 template <class Core, class C>
 constexpr bool haveSameNumbers(std::initializer_list<Core> core, std::initializer_list<C> c)
 {

@@ -31,7 +31,7 @@
  * cause and the remedy. Pointers to objects are written only on success. Lack of memory is an error
  * like others.
  *
- * Memory for results: the caller passes it, with its size in bytes, which may exceed what is needed.
+ * Memory for results: the caller provides it and its size in bytes, which may be more than needed.
  * It is aligned as the numbers are, and overlaps no other argument. Tuples are contiguous. After a
  * failure it may be partly written.
  *
@@ -148,8 +148,8 @@ typedef enum isopoint_precision
  * docs/properties.md has all details. */
 typedef struct isopoint_options
 {
-  /* Options have to be within their ranges, even those that have no effect: those of points on
-   * triangles, and those of triangles on points. */
+  /* All options must be within their ranges, even those without effect, such as options of points
+   * when triangles are extracted. */
   uint64_t size;                     /* of this struct, in bytes */
   int32_t triangles;                 /* 0: points; 1: triangles. Default: 0 */
   int32_t projection;                /* an isopoint_projection: how points move. Default: CUBIC */

@@ -116,7 +116,7 @@ private:
     std::vector<std::size_t> leaves = this->leavesAtSurface(nodes);
     this->Counts.atSurface = this->Ranks.sum(leaves.size());
     this->gather(leaves);
-    if (leaves.empty() && !this->IsBody) // on all ranks; the next isovalue may use what is kept
+    if (leaves.empty() && !this->IsBody) // on all ranks; keeps tetrahedra for the next isovalue
     {
       return false;
     }

@@ -179,7 +179,7 @@ def samples_with_arrays(data: Any, names: Sequence[str], associations: tuple[int
                     " give them in separate calls.")
         for name in (each for each in names if each in lacking):
             if (found := _find(leaf, name, associations, SCALARS)) is not None:
-                _block(leaf, *found, are_values=False)  # raises what is wrong with it
+                _block(leaf, *found, are_values=False)  # raises an error that says what is wrong
         named = f"array named {_quoted(each for each in names if each in lacking)}" if names else "array of numbers"
         return f"The input has no {_elements(associations)} {named}. {_choice_of(leaf)}"
 
