@@ -14,7 +14,8 @@
 namespace isopoint
 {
 
-/// Whether the core's enumerators have the same numbers as those in C, so that a cast converts them.
+/// Whether the core's enumerators have the same numbers as those in C, so that a cast converts
+/// them.
 template <class Core, class C>
 constexpr bool haveSameNumbers(std::initializer_list<Core> core, std::initializer_list<C> c)
 {
