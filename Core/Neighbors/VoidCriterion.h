@@ -9,11 +9,11 @@
 namespace isopoint
 {
 
-/// Rejects edges that span a void: another criterion rejects them, and one of seven balls on them is
-/// empty. Balls are around the seven points that divide an edge into eight equal parts; their radius
-/// is a factor times the spacing, the distance from an end to the tenth nearest position, the
-/// larger of both ends. Long edges of slivers on the convex hull pass, because samples are close to
-/// them. Edges from rim to rim need no other criterion: see joinsRims().
+/// Rejects edges that span a void: another criterion rejects them, and one of seven balls on them
+/// is empty. Balls are around the seven points that divide an edge into eight equal parts; their
+/// radius is a factor times the spacing, the distance from an end to the tenth nearest position,
+/// the larger of both ends. Long edges of slivers on the convex hull pass, because samples are
+/// close to them. Edges from rim to rim need no other criterion: see joinsRims().
 template <class TCriterion>
 class VoidCriterion
 {
