@@ -3,7 +3,8 @@
 """Volume and area of bodies of samples alone, beside the true ones: prints the table of docs/triangles.md.
 
 With --file FILE ARRAY ISOVALUE (VTK's XML formats), time and angles with and without caps instead; with --particles
-FILE, time and closedness beside pysplashsurf, which it needs, with trimesh and scipy.
+FILE, time and closedness beside pysplashsurf, which it needs, with trimesh and scipy; with --droplets the volume of
+small bodies beside that of their particles.
 """
 import argparse
 import time
@@ -48,6 +49,20 @@ def clouds():
         np.linspace(0, 4, 80), np.linspace(0, 2 * np.pi, 24, endpoint=False), np.linspace(.5, 1, 6)))
     pipe = np.stack([along, out * np.cos(around), out * np.sin(around)], 1)
     yield "pipe of 24 rows around", pipe, 48 * np.sin(np.pi / 12) * .75, None
+
+
+def droplets():
+    """Balls of particles on a jittered lattice of spacing 1, so that each particle has the volume 1."""
+    print("| particles | volume over theirs |\n|---|---|")
+    for radius in (10, 5, 3, 2, 1.65):
+        balls = []
+        for seed in range(20):
+            random = np.random.default_rng(seed)
+            positions = lattice(25, 12.0) + random.uniform(0, 1, 3)
+            positions += random.uniform(-.25, .25, positions.shape)
+            balls.append(positions[np.linalg.norm(positions, axis=1) < radius])
+        share = np.mean([body(ball).volume / len(ball) for ball in balls])
+        print(f"| {np.mean([len(ball) for ball in balls]):.0f} | {share:.2f} |")
 
 
 def seconds(work):
@@ -115,7 +130,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--file", nargs=3, metavar=("FILE", "ARRAY", "ISOVALUE"))
     parser.add_argument("--particles", metavar="FILE")
+    parser.add_argument("--droplets", action="store_true")
     arguments = parser.parse_args()
+    if arguments.droplets:
+        droplets()
+        return
     if arguments.file:
         with_caps(common.read(arguments.file[0]), arguments.file[1], float(arguments.file[2]))
         return

@@ -12,7 +12,9 @@
  * The output is a vtkPolyData of triangles between samples, which have all arrays of the sample:
  * each edge has two triangles, each point one fan, and right-hand normals point outwards. The
  * surface of a hole within the body is a connected component with a negative volume. Samples in one
- * plane, or fewer than four, have no body.
+ * plane, or fewer than four, have no body. The surface passes through the outermost samples. So the
+ * volume is less than that of particles which extend beyond their centers: by 7 % for 4,000
+ * particles, by two thirds for 19.
  *
  * Samples are the points of the input, the centers of its cells if it has arrays of cells only, or
  * the leaves of hyper tree grids, of all blocks. Those whose position is not finite, ghosts and

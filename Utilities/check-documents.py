@@ -50,6 +50,8 @@ CODE = r"`([^`\n]+(?:\n[^`\n]+)*)`"
 OPEN = r"(`{3,}|~{3,}|<!--)"
 CONSTANT = r"^\| ([^|]+) \| ([\w.]+\.(?:h|cxx)) \| ([^|]+) \|"  # a row of name, file and value
 DEFAULTS = r"^(\|.*\| default \|.*)\n\|[-|: ]+\n((?:\|.*\n)*)"  # a table of properties
+CLASS = r"\b(?:class|struct)\s+(?:[A-Z]+_EXPORT\s+)?(\w+)\b[^;{]*\{"  # a definition
+MEMBER = r"\b(\w+)::(\w+)"
 IDENTIFIER = re.compile(r"\b(?:vtk\w+|(?=\w*[a-z])[A-Za-z]\w*[A-Z]\w*)\b")
 SWITCHES = {"on": "1", "off": "0", "true": "1", "false": "0"}
 
@@ -86,6 +88,10 @@ class Checker:
         for kind, pattern in found:
             for declared, *value in map(re.Match.groups, pattern.finditer(text)):
                 self.known[kind][declared].update(value)
+        if name.endswith(".h"):
+            words = set(re.findall(r"\w+", re.sub(r"//.*", "", text)))
+            for declared in re.findall(CLASS, text):
+                self.known["class"][declared].update(words)
         tests = re.findall(r"^(?:TYPED_)?TEST(?:_[FP])?\((\w+),\s*(\w+)\)", text, re.MULTILINE)
         self.known["test"].update((f"{name.removesuffix('.cxx')}.{suite}.{test}", set()) for suite, test in tests)
         for prefix in re.findall(r'\badd_test\s*\(NAME "?([\w.]+)\$\{name\}', text):
@@ -147,6 +153,9 @@ class Checker:
         for word in IDENTIFIER.findall(code):
             if word not in self.known["identifier"]:
                 self.report(line, f"no identifier {word} in the sources")
+        for name, member in re.findall(MEMBER, code):
+            if name in self.known["class"] and member not in self.known["class"][name]:
+                self.report(line, f"no {member} in {name}")
 
     def check_words(self, line, text):
         """Paths, and names of presets, targets, options and tests, of code or of a command."""

@@ -127,7 +127,9 @@ def body(
     -------
     Isosurface
         Triangles between samples, counterclockwise seen from outside: closed, each edge with two triangles, each
-        point with one fan. Arrays are those of the samples. Errors and warnings are as in :func:`contour`.
+        point with one fan. Arrays are those of the samples. Errors and warnings are as in :func:`contour`. The
+        surface passes through the outermost samples: its volume is less than that of particles which extend beyond
+        their centers, by 7 % for 4,000 particles, by two thirds for 19.
 
     Examples
     --------

@@ -32,7 +32,7 @@ DEFECTS = (  # the text of a page in docs, the line of the defect, and a word of
     ("`Missing/File.h`\n", 1, "File.h"), ("`build/base/bin/Program`\n", 1, "base"),
     ("`cmake --preset base`\n", 1, "base"), ("`cmake --preset=missing`\n", 1, "missing"),
     ("a\n`vtkmissing`\n", 2, "vtkmissing"), ("`vtkObject::GetMissing()`\n", 1, "GetMissing"),
-    ("`camelCase`\n", 1, "camelCase"), (block("bash", "ls\ncmake --preset base"), 3, "base"),
+    ("`ProcessGroup::together`\n", 1, "together in ProcessGroup"), ("`camelCase`\n", 1, "camelCase"), (block("bash", "ls\ncmake --preset base"), 3, "base"),
     (block("bash", "./missing.sh"), 2, "missing.sh"), (block("bash", "ls\ncmake --preset \\\n  base\nls"), 3, "base"),
     (block("bash", "if true"), 1, "syntax"), (block("bash", "A=1 Utilities/steps.sh X"), 2, "executable"),
     *((block("bash", f"cmake --build x --target isopoint {name}"), 2, name) for name in ("Missing", "Documents")),
