@@ -264,8 +264,8 @@ def _check_thousands(columns: dict[str, Any], clear: dict[tuple[str, str], str],
         if (mark, name) in clear or not isinstance(columns[name], list):
             continue
         if other in decimal:
-            columns[name] = ValueError(f'"{text}", column "{name}", and "{decimal[other]}" cannot both be decimal: remove'
-                                       " separators of thousands")
+            columns[name] = ValueError(f'"{text}", column "{name}", and "{decimal[other]}" cannot both be decimal:'
+                                       " remove separators of thousands")
         elif mark == "," and not decimal:
             doubtful.append(f'"{text}", column "{name}"')
     if doubtful:

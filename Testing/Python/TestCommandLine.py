@@ -422,11 +422,12 @@ class CommandLine(unittest.TestCase):
         self.assertRegex(run("contour", "a.npz", "readme.txt", 0.3)[2], 'a.npz: "readme.txt" holds no numbers\n$')
 
     def test_headers_that_claim_too_much(self):
-        for kind, body in (("ascii", b"1 2 3\n"), ("binary_little_endian", bytes(24)), ("binary_big_endian", bytes(30))):
+        for kind, content in (("ascii", b"1 2 3\n"), ("binary_little_endian", bytes(24)),
+                              ("binary_big_endian", bytes(30))):
             for count in (10**12, 10**30):
                 header = (f"ply\nformat {kind} 1.0\nelement vertex {count}\nproperty double x\nproperty double y\n"
                           "property double z\nend_header\n")
-                pathlib.Path("claim.ply").write_bytes(header.encode() + body)
+                pathlib.Path("claim.ply").write_bytes(header.encode() + content)
                 status, _, errors = run("body", "claim.ply")
                 self.assertRegex(errors, rf"error: claim.ply cannot be read: it ends after 1 of {count} vertices\n\Z")
                 self.assertEqual(status, 1)
@@ -520,7 +521,7 @@ class CommandLine(unittest.TestCase):
                 return f"{1000 + i:,}"
 
             with self.subTest(kind):
-                with self.assertRaisesRegex(ValueError, r'a\..*"1,000", column "T", and "0\.\d+" cannot both be decimal'):
+                with self.assertRaisesRegex(ValueError, r'a\..*: "1,000", column "T", and "0\.\d+" cannot both be'):
                     read(texts(3, thousand))
                 with self.assertRaisesRegex(ValueError, '"1.000", column "T", and "0,.*" cannot both be decimal'):
                     read(texts(3, thousand).replace(".", ";;").replace(",", ".").replace(";;", ","))
@@ -573,8 +574,8 @@ class CommandLine(unittest.TestCase):
                 ("flat.csv", 'flat.csv has no "z": add it, or give the coordinates by --columns; there are x, y, T'),
                 ("flat.csv --columns x,y", r'flat.csv has "x" of the shape \(4,\), "y" of the shape \(4,\), not three'
                  " columns of coordinates: give the coordinates by --columns; there are x, y, T"),
-                ("flat.npz", r'flat.npz has "points" of the shape \(3000, 2\), not three columns of coordinates: give .*--columns'),
-                ("lengths.npz", r'lengths.npz has "x" of the shape \(3000,\), .*"z" of the shape \(2999,\), not three columns')):
+                ("flat.npz", r'flat.npz has "points" of the shape \(3000, 2\), not three columns .*: give .*--columns'),
+                ("lengths.npz", r'lengths.npz has "x" of the shape \(3000,\), .*"z" of the shape \(2999,\), not')):
             name, *rest = text.split()
             self.assertRegex(run("contour", name, "T", 3, *rest)[2], f"error: {message}")
 
@@ -592,16 +593,20 @@ class CommandLine(unittest.TestCase):
             self.assertEqual([pydoc.locate(each) is not None for each in described], [True] * (name != "probe"))
             for name, value in re.findall(r"^  (\w+)=(.*)$", out, re.MULTILINE):
                 value = {"COUNT": "12", "NUMBER": "0.5"}.get(value, value.split("|")[-1])
-                status, _, errors = run(*found[0].split()[:1], "a.npz", *["T", "0.3"] * (found[0][0] == "c"), *[
-                    "--points"] * (name in OptionsOfPoints.__annotations__), "--option", f"{name}={value}", "-o", "o.ply")
+                command = found[0].split()[0]
+                status, _, errors = run(command, "a.npz", *["T", "0.3"] * (command == "contour"),
+                                        *["--points"] * (name in OptionsOfPoints.__annotations__),
+                                        "--option", f"{name}={value}", "-o", "made.ply")
                 self.assertEqual((status, errors), (0, ""), name)
         self.assertRegex(run("paraview")[1], "scattered_isopoints.py")
         self.assertRegex(run("--version")[1], r"^\d+\.\d+\.\d+$")
 
     def test_names_of_the_program(self):
         """What pip installs calls main() without arguments, and says its own name."""
-        script = "import sys\nsys.argv = ['{}', *sys.argv[1:]]\nfrom scatteredisopoints._command_line import main\nsys.exit(main())"
-        for name, shown in (("bin/scatteredisopoints", "scatteredisopoints"), ("scatteredisopoints.exe", "scatteredisopoints"),
+        script = ("import sys\nsys.argv = ['{}', *sys.argv[1:]]\n"
+                  "from scatteredisopoints._command_line import main\nsys.exit(main())")
+        for name, shown in (("bin/scatteredisopoints", "scatteredisopoints"),
+                            ("scatteredisopoints.exe", "scatteredisopoints"),
                             ("scatteredisopoints/__main__.py", "python -m scatteredisopoints")):
             done = subprocess.run([sys.executable, "-c", script.format(name), "contour", "a.csv", "T", "9"],
                                   capture_output=True, text=True)
