@@ -213,10 +213,17 @@ def add_command(commands: Any, name: str, function: Any, summary: str, out: str,
     return added
 
 
+class Parser(argparse.ArgumentParser):
+    """Its messages show arguments as the user gave them."""
+
+    def error(self, message: str) -> Any:
+        super().error(message.replace(MARK, ""))
+
+
 def make_parsers() -> tuple[argparse.ArgumentParser, dict[str, argparse.ArgumentParser]]:
     """The parser of all arguments, and those of the commands."""
-    parser = argparse.ArgumentParser(PROGRAM, description="Isosurfaces straight from scattered samples.",
-                                     epilog=f"{PROGRAM} COMMAND --help describes a command.")
+    parser = Parser(PROGRAM, description="Isosurfaces straight from scattered samples.",
+                    epilog=f"{PROGRAM} COMMAND --help describes a command.")
     parser.add_argument("--version", action="version", version=__version__)
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     command = functools.partial(add_command, commands)

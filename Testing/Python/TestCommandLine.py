@@ -288,7 +288,9 @@ class CommandLine(unittest.TestCase):
             ("probe a.csv --grid 1,0,1", 2, "--grid: 1,0,1: give three whole"), ("contour a.csv T", 2, "ISOVALUE"),
             ("contour a.csv T x", 2, "x: give a number$"),
             ("contour a.csv T 1 --threads 0", 2, "--threads: 0: give a whole number, 1 or more$"),
-            ("contour a.csv T 1 --thread 1", 2, "unrecognized"), ("", 2, "COMMAND"), ("nothing", 2, "nothing"),
+            ("contour a.csv T 1 --thread 1", 2, "unrecognized"),
+            ("contour a.csv T 1 --unknown -2", 2, "unrecognized arguments: --unknown -2$"),
+            ("", 2, "COMMAND"), ("nothing", 2, "nothing"),
             ("contour cut.vtu T 0.3", 1, "cut.vtu" if HAS_PYVISTA or HAS_MESHIO else "needs PyVista or meshio: pip")]
         before = set(os.listdir())
         for text, expected, message in cases:
