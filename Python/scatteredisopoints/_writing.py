@@ -72,7 +72,7 @@ def file_to_write(path: str) -> Iterator[str]:
         os.replace(target, path)
     except OSError as error:
         if error.filename in (private, target):
-            error.filename, error.filename2 = path, None
+            raise OSError(error.errno, error.strerror, path) from error
         raise
     finally:
         shutil.rmtree(private, ignore_errors=True)

@@ -320,6 +320,9 @@ class CommandLine(unittest.TestCase):
             status, _, errors = run("contour", "a.npz", "T", 0.3, "-o", "made.ply")
         self.assertEqual(status, 1)
         self.assertRegex(errors, "error: [^ ]*made.ply: No space left")
+        with mock.patch("os.mkdir", side_effect=lambda path, _: os.rmdir(path)):  # which fails as os.mkdir() may
+            with self.assertRaisesRegex(OSError, r"[^ ]*made.ply'\Z"), _writing.file_to_write("made.ply"):
+                pass
         self.assertEqual(pathlib.Path("made.ply").read_text(), "earlier")
         self.assertEqual(set(os.listdir()), {*before, "made.ply"})
 
