@@ -64,7 +64,7 @@ else:
         if "_vtk" in _MODULES[name] and importlib.util.find_spec("vtkmodules") is None:
             raise kind(f"{name} needs VTK: pip install vtk")
         raise kind(f"{name} needs classes that are compiled for this interpreter's VTK: build this"
-                   " project with VTK or ParaView, as docs/installing.md in its source says.")
+                   " project's source with VTK (cmake --preset vtk) or ParaView (cmake --preset release).")
 
     def __dir__():
         return sorted({*globals(), *_found()})

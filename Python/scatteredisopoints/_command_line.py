@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The commands of python -m scatteredisopoints: see main()."""
+"""The commands of scatteredisopoints and python -m scatteredisopoints: see main()."""
 
 from __future__ import annotations
 
@@ -21,16 +21,17 @@ from ._arrays import as_numpy
 from ._datasets import DataSamples
 from ._isosurface import Isosurface
 from ._lines_and_grids import lattice, line_between
-from ._option_types import OPTION_TYPES
+from ._option_types import OPTION_TYPES, BodyOptions, SliceOptions
 from ._options import CONSTANTS, INTERPOLATIONS, check_names
 from ._paths import PYTHON_PLUGIN
 from ._polydata import PolyDataMaker
 from ._progress import Progress, part
-from ._reading import read_samples
+from ._reading import read_samples, to_number
 from ._samples import Samples
 from ._writing import file_to_write, write_csv, writer_for
 
-PROGRAM = "python -m scatteredisopoints"
+PROGRAM = "scatteredisopoints" if Path(sys.argv[0]).stem == "scatteredisopoints" else "python -m scatteredisopoints"
+MARK = "\0"  # begins an argument that is no option: the system passes none with this character
 FILES = """
 FILE: CSV and other text (x, y, z and more columns between commas, semicolons, tabs or blanks; - is stdin), NPY (shape
 (n, 4): x, y, z, value), NPZ, PLY, or what PyVista or meshio reads. OUT: .ply, .stl, .obj, .npz, .csv; with PyVista
@@ -108,7 +109,7 @@ def probed(given: argparse.Namespace, report: Progress) -> Isosurface:
 def requested_places(given: argparse.Namespace, positions: np.ndarray) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """Where to probe, and arrays there."""
     if given.places:
-        return as_numpy(read_samples(given.places).positions), {}
+        return as_numpy(read_samples(given.places, columns=given.columns, are_places=True).positions), {}
     if given.line:
         begin, end = np.array(given.line)
         places, distances = line_between(begin, end, given.resolution)
@@ -121,10 +122,19 @@ def requested_places(given: argparse.Namespace, positions: np.ndarray) -> tuple[
     return np.array(given.at), {}
 
 
+def plain(text: str) -> str:
+    """An argument as the user gave it."""
+    return text.lstrip(MARK)
+
+
+def lower(text: str) -> str:
+    return plain(text).lower()
+
+
 def argument(convert: Callable[[str], Any], remedy: str) -> Callable[[str], Any]:
     """The type of an argument that a function converts; the remedy is for where it raises ValueError."""
     def parse(text: str) -> Any:
-        text = text.strip().lower()
+        text = lower(text).strip()
         try:
             return convert(text)
         except ValueError:
@@ -134,62 +144,86 @@ def argument(convert: Callable[[str], Any], remedy: str) -> Callable[[str], Any]
 
 
 def to_positive(text: str) -> int:
-    if int(text) < 1:
+    if "_" in text or int(text) < 1:
         raise ValueError
     return int(text)
 
 
-def to_three(text: str, kind: Any = float) -> list:
+def to_three(text: str, kind: Any = to_number) -> list:
     x, y, z = map(kind, text.split(","))
     return [x, y, z]
 
 
-NUMBER = argument(float, "a number")
-NUMBERS = argument(lambda text: [float(each) for each in text.split(",")], "numbers between commas")
+NUMBER = argument(to_number, "a number")
+NUMBERS = argument(lambda text: [to_number(each) for each in text.split(",")], "numbers between commas")
 PLACE = argument(to_three, "three numbers between commas, such as 0,0,0.5")
 COUNT = argument(to_positive, "a whole number, 1 or more")
 COUNTS = argument(lambda text: to_three(text, to_positive), "three whole numbers between commas, 1 or more")
 DIRECTION = argument(lambda text: text if text in ("x", "y", "z", "-x", "-y", "-z") else to_three(text),
                      "x, y, z, -x, -y, -z, or three numbers such as 1,1,0")
-OUTSIDE = argument(lambda text: {"fit": None, "nearest": text}[text] if text in ("fit", "nearest") else float(text),
+OUTSIDE = argument(lambda text: {"fit": None, "nearest": text}[text] if text in ("fit", "nearest") else to_number(text),
                    "a number, nearest or fit")
 
 
 def option(text: str) -> tuple[str, Any]:
     """The type of NAME=VALUE."""
-    name, _, value = text.partition("=")
+    name, _, value = plain(text).partition("=")
     try:
-        return name, ast.literal_eval(value)
+        return name, {"true": True, "false": False, "none": None}[value.lower()]
+    except KeyError:
+        pass
+    try:
+        found = ast.literal_eval(value)
     except (SyntaxError, ValueError):
         return name, value
+    return name, value if "_" in value and isinstance(found, (float, int)) else found
+
+
+def choices_of(name: str) -> str:
+    """What an option can be."""
+    kinds = {bool: "true|false", int: "COUNT", float: "NUMBER"}
+    others = {"gradient_direction": ["descent", "ascent"], **CONSTANTS}
+    return "|".join(others[name]) if name in others else kinds[OPTION_TYPES[name]]
 
 
 def add_command(commands: Any, name: str, function: Any, summary: str, out: str, *examples: str
                 ) -> argparse.ArgumentParser:
     """Adds a command with the arguments that all have."""
     text = "".join(f"  {PROGRAM} {name} {each}\n" for each in examples)
+    if name != "probe":
+        names = {"body": BodyOptions.__annotations__, "slice": SliceOptions.__annotations__}.get(name, OPTION_TYPES)
+        described = "slice_samples" if name == "slice" else name
+        text += f"\nproperties of --option, which python -m pydoc scatteredisopoints.{described} describes:\n"
+        text += "".join(f"  {each}={choices_of(each)}\n" for each in sorted(names))
     added = commands.add_parser(
         name, description=summary, help=summary, epilog=f"examples:\n{text}{FILES}", allow_abbrev=False,
         formatter_class=argparse.RawDescriptionHelpFormatter)
     added.set_defaults(command=name, function=function, error=added.error)
-    added.add_argument("file", metavar="FILE", help="the samples")
-    added.add_argument("-o", dest="out", metavar="OUT", help=f"default: {out}")
-    added.add_argument("--columns", metavar="X,Y,Z", type=lambda text: text.split(","),
-                       help="the columns of a table that are coordinates")
+    added.add_argument("file", metavar="FILE", type=plain, help="the samples")
+    added.add_argument("-o", dest="out", metavar="OUT", type=plain, help=f"default: {out}")
+    added.add_argument("--columns", metavar="X,Y,Z", type=lambda text: plain(text).split(","),
+                       help="the columns of tables that are coordinates, in one unit of length")
     added.add_argument("--threads", metavar="N", type=COUNT, help="default: all cores")
     if name != "contour":
         added.set_defaults(points=name == "probe")
-        added.add_argument("arrays", metavar="ARRAY", nargs="*", help="default: all")
+        added.add_argument("arrays", metavar="ARRAY", nargs="*", type=plain, help="default: all")
     if name != "probe":
         added.add_argument("--option", metavar="NAME=VALUE", action="append", type=option, default=[],
-                           help="a further property, such as drop_gaps=False; docs/python.md lists them")
+                           help="a property, such as drop_gaps=false; see below")
     return added
+
+
+class Parser(argparse.ArgumentParser):
+    """Its messages show arguments as the user gave them."""
+
+    def error(self, message: str) -> Any:
+        super().error(message.replace(MARK, ""))
 
 
 def make_parsers() -> tuple[argparse.ArgumentParser, dict[str, argparse.ArgumentParser]]:
     """The parser of all arguments, and those of the commands."""
-    parser = argparse.ArgumentParser(PROGRAM, description="Isosurfaces straight from scattered samples.",
-                                     epilog=f"{PROGRAM} COMMAND --help describes a command.")
+    parser = Parser(PROGRAM, description="Isosurfaces straight from scattered samples.",
+                    epilog=f"{PROGRAM} COMMAND --help describes a command.")
     parser.add_argument("--version", action="version", version=__version__)
     commands = parser.add_subparsers(metavar="COMMAND", required=True)
     command = functools.partial(add_command, commands)
@@ -197,7 +231,7 @@ def make_parsers() -> tuple[argparse.ArgumentParser, dict[str, argparse.Argument
     added = command("contour", contoured, "Isosurfaces, as triangles or points.", beside.format("contour"),
                     "samples.csv temperature 300 350", "flow.vtu velocity:magnitude 0.5 -o surface.stl",
                     "samples.npy value -1e-3 --points --option projection=crease_fit")
-    added.add_argument("array", metavar="ARRAY")
+    added.add_argument("array", metavar="ARRAY", type=plain)
     added.add_argument("isovalues", metavar="ISOVALUE", nargs="+", type=NUMBER)
     added.add_argument("--points", action="store_true", help="points with normals and radii instead of triangles")
     added.add_argument("--capping", dest="option", action="append_const", const=("capping", True),
@@ -209,19 +243,20 @@ def make_parsers() -> tuple[argparse.ArgumentParser, dict[str, argparse.Argument
     added.add_argument("--normal", type=DIRECTION, default="x", help="x, y, z, -x, -y, -z, or numbers such as 1,1,0")
     added.add_argument("--origin", type=PLACE, metavar="X,Y,Z", help="default: the center of the bounds")
     added.add_argument("--offsets", type=NUMBERS, default=[0.0], metavar="D,...", help="distances along the normal")
-    added.add_argument("--interpolation", type=str.lower, choices=tuple(INTERPOLATIONS), default="fits")
+    added.add_argument("--interpolation", type=lower, choices=tuple(INTERPOLATIONS), default="fits")
     added = command("probe", probed, "Values at places.", "CSV to stdout", "samples.csv temperature --at 0,0,0.5",
                     "flow.vtu velocity --line 0,0,0 1,0,0 --resolution 100 -o line.csv",
                     "samples.npz --grid 50,50,50 --gradient -o grid.npz")
     places = added.add_mutually_exclusive_group(required=True)
     places.add_argument("--at", action="append", type=PLACE, metavar="X,Y,Z", help="a place; may be repeated")
-    places.add_argument("--places", metavar="FILE", help="a file of places")
+    places.add_argument("--places", metavar="FILE", type=plain,
+                        help="a file of places, in --columns or usual ones")
     places.add_argument("--line", nargs=2, type=PLACE, metavar="X,Y,Z")
     places.add_argument("--grid", type=COUNTS, metavar="NX,NY,NZ",
                         help="so many points along the axes of the bounds")
     added.add_argument("--resolution", type=COUNT, metavar="N", default=1000, help="pieces of the line")
     added.add_argument("--gradient", action="store_true", help="gradients, too")
-    added.add_argument("--method", type=str.lower, choices=tuple(CONSTANTS["method"]), default="blend")
+    added.add_argument("--method", type=lower, choices=tuple(CONSTANTS["method"]), default="blend")
     added.add_argument("--outside", type=OUTSIDE, metavar="VALUE", default=math.nan,
                        help="for places outside: a number, nearest or fit; default: nan")
     commands.add_parser("paraview", help="Ways to load the filters into ParaView.")
@@ -253,7 +288,9 @@ def run(given: argparse.Namespace) -> None:
         finally:
             if sys.stderr.isatty():
                 print("\r     ", end="\r", file=sys.stderr)
-        if out is not None and len(surface):
+        if out is None and len(surface):
+            write_csv(sys.stdout.fileno(), surface)
+        elif len(surface):
             with file_to_write(out) as target:
                 write(target, surface)
     messages = [str(each.message) for each in caught if issubclass(each.category, RuntimeWarning)]
@@ -262,23 +299,25 @@ def run(given: argparse.Namespace) -> None:
     for message in messages:
         print(f"{PROGRAM} {given.command}: warning: {message}", file=sys.stderr)
     if out is None:
-        write_csv(sys.stdout.fileno(), surface)
         return
     triangles = "" if surface.triangles is None else f", {len(surface.triangles)} triangles"
     volume = f", volume {surface.volume:.6g}" if given.command == "body" else ""
     print(f"{out}: {len(surface)} points{triangles}{volume}", flush=True)
 
 
-def main(arguments: list[str]) -> int:
-    """Runs a command; returns its exit status."""
+def main(arguments: Optional[list[str]] = None) -> int:
+    """Runs a command, by default that of the process; returns its exit status."""
+    arguments = sys.argv[1:] if arguments is None else arguments
     parser, commands = make_parsers()
     if not arguments or arguments[0] not in commands or arguments[0] == "paraview":
         parser.parse_args(arguments)  # exits, except for paraview
         print(PARAVIEW, end="")
         return 0
-    # A blank before negative numbers and normals: these are no options.
-    rest = [re.sub(r"^(?=-[\d.xyzXYZ])", " ", each) for each in arguments[1:]]
-    given = commands[arguments[0]].parse_intermixed_args(rest)
+    # Negative numbers and normals are no options, and nothing is after "--".
+    end = arguments.index("--") if "--" in arguments else len(arguments)
+    no_option = re.compile(r"-([\d.]|(inf|infinity|nan|[xyz])(,|$))", re.IGNORECASE)
+    marked = [MARK * bool(no_option.match(each)) + each for each in arguments[1:end]]
+    given = commands[arguments[0]].parse_intermixed_args(marked + [MARK + each for each in arguments[end + 1:]])
     try:
         run(given)
         return 0

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The samples of data sets of VTK, and of packages with its classes (PyVista, cvista, vedo).
 
-Only calls methods of the objects, so that any of these packages works. docs/properties.md defines which
+Only calls methods of the objects, so that any of these packages works. docs/properties.md in the source defines which
 points and cells are samples.
 """
 

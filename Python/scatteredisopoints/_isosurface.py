@@ -125,7 +125,8 @@ class Isosurface:
         return _imported("trimesh").Trimesh(self.points, self.triangles, process=False)
 
     def save(self, path: Union[str, os.PathLike[str]]) -> None:
-        """Writes a file, with all arrays of points that its format can hold. If this fails, an earlier one stays.
+        """Writes a file, with all arrays of points that its format can hold. An earlier one keeps its permissions, and
+        stays if this fails.
 
         Parameters
         ----------

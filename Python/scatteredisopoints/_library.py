@@ -6,6 +6,7 @@ from __future__ import annotations
 import atexit
 import ctypes
 import os
+import re
 import threading
 import weakref
 from ctypes import POINTER, byref, c_char_p, c_double, c_int32, c_int64, c_size_t, c_uint64, c_void_p
@@ -133,8 +134,13 @@ Cancels = ctypes.CFUNCTYPE(ctypes.c_int, c_void_p)
 try:
     _library = ctypes.CDLL(LIBRARY)
 except OSError as error:
-    raise ImportError(f"The C library cannot be loaded: {error}. Install this package again, for this"
-                      " system.") from None
+    # As said by glibc, musl and macOS.
+    named = re.match(r"([^:]*): cannot open shared|Error loading shared library ([^:]*):"
+                     r"|.*Library not loaded: (\S+)", str(error), re.DOTALL)
+    missing = os.path.basename("".join(filter(None, named.groups()))) if named else ""
+    remedy = ("Install this package again, for this system." if missing in ("", os.path.basename(LIBRARY)) else
+              f"Install the system's package that has {missing}, as libtbb12 or libgmp10 of Debian do.")
+    raise ImportError(f"The C library cannot be loaded: {error}. {remedy}") from None
 
 
 def _declare(name: str, *arguments: Any, result: Any = ctypes.c_int):

@@ -11,10 +11,11 @@ import logging
 import math
 import re
 import sys
+import warnings
 import zipfile
 from itertools import chain, islice, takewhile
 from pathlib import Path
-from typing import Any, Optional, Sequence, TextIO
+from typing import Any, Iterable, Iterator, Optional, Sequence, TextIO
 
 import numpy as np
 
@@ -28,15 +29,31 @@ _POSITIONS = (("x", "y", "z"), ("points",), ("positions",), *(tuple(f"points{sep
                                                                for separator in ":_"))  # names in lower case
 PLY_TYPES = {"char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4", "float": "f4",
              "double": "f8"}  # others, such as int8, are NumPy's names
+END_OF_NAME = r"(?= *[([]|$)"  # perhaps before a unit in brackets
+# Numbers whose comma or point may separate thousands.
+_MAYBE_THOUSANDS = re.compile(r"\s*[-+]?[1-9]\d{0,2}[.,]\d{3}\s*")
 
 
-def read_samples(path: str, names: Sequence[str] = (), columns: Optional[Sequence[str]] = None
-                 ) -> _datasets.DataSamples:
+def to_number(text: str) -> float:
+    """Raises ValueError unless a text is a number, also for the underscores of Python's numbers."""
+    if "_" in text:
+        raise ValueError
+    return float(text)
+
+
+def without_unit(name: str) -> str:
+    """The name of a coordinate in lower case."""
+    return re.split(END_OF_NAME, name.lower(), maxsplit=1)[0]
+
+
+def read_samples(path: str, names: Sequence[str] = (), columns: Optional[Sequence[str]] = None, *,
+                 are_places: bool = False) -> _datasets.DataSamples:
     """The samples of a file, without values, with all arrays, and with those of the given names.
 
     path: of a table (text, NPY, NPZ), a PLY file, or a file that PyVista or meshio reads; "-": a table from stdin.
     names: of arrays, or of parts of these: NAME:0, NAME:x or NAME:magnitude.
     columns: the arrays of a table with the coordinates, or the one with positions; None: usual names.
+    are_places: columns are those of another file, which this one need not have.
 
     Raises OSError if the file cannot be read, ImportError without a package for it, ValueError for wrong contents.
     """
@@ -48,7 +65,7 @@ def read_samples(path: str, names: Sequence[str] = (), columns: Optional[Sequenc
         raise ValueError(f"{path} cannot be read: {error}") from error
     unusable: dict[str, Any] = {}
     if isinstance(data, dict):
-        positions = _positions(path, data, columns)
+        positions = _positions(path, data, columns, are_places)
         unusable = {name: array for name, array in data.items() if isinstance(array, Exception)}
         data = {name: array for name, array in data.items() if np.shape(array)[:1] == positions.shape[:1]}
         known = set(data)
@@ -82,32 +99,40 @@ def _part(name: str, array: np.ndarray, part: str) -> np.ndarray:
     return array[:, parts[part]]
 
 
-def _positions(path: str, table: dict[str, Any], columns: Optional[Sequence[str]]) -> np.ndarray:
+def _positions(path: str, table: dict[str, Any], columns: Optional[Sequence[str]], are_places: bool) -> np.ndarray:
     """Takes the positions out of a table."""
-    names = [re.sub(r" *[([].*", "", name.lower()) for name in table]  # without units
-    usual = next((each for each in _POSITIONS if {*names} >= {*each}), ("x",))
+    if are_places and columns and not {*columns} <= {*table}:
+        columns = None
+    remedy = (("name the coordinates x, y, z, or as in FILE" if are_places else "give the coordinates by --columns")
+              + f"; there are {', '.join(table)}")
+    names = list(map(without_unit, table))
+    usual = next((each for each in _POSITIONS if {*names} >= {*each}), _POSITIONS[0])
     for name in (name for name in usual if names.count(name) > 1 and not columns):
-        raise ValueError(f'{path} has several columns for "{name}": give the coordinates by --columns; there are'
-                         f' {", ".join(table)}')
+        raise ValueError(f'{path} has several columns for "{name}": {remedy}')
     wanted = columns or [dict(zip(names, table)).get(name, name) for name in usual]
     for name in (name for name in wanted if name not in table):
-        raise ValueError(f'{path} has no "{name}": give the coordinates by --columns; there are {", ".join(table)}')
+        raise ValueError(f'{path} has no "{name}": {"" if are_places else "add it, or "}{remedy}')
     if len({*wanted}) < len(wanted):
-        raise ValueError(f"the columns {', '.join(wanted)} are not different: give the coordinates by --columns")
+        raise ValueError(f"the columns {', '.join(wanted)} are not different: {remedy}")
     arrays = [table.pop(name) for name in wanted]
     for error in (array for array in arrays if isinstance(array, Exception)):
         raise ValueError(f"{path}: {error}")
-    return arrays[0] if len(arrays) == 1 else np.column_stack(arrays)
+    shapes = [np.shape(array) for array in arrays]
+    if len(arrays) == 3 and len({*shapes}) == 1 and len(shapes[0]) == 1:
+        return np.column_stack(arrays)
+    if len(arrays) != 1 or shapes[0][1:] != (3,):
+        found = ", ".join(f'"{name}" of the shape {shape}' for name, shape in zip(wanted, shapes))
+        raise ValueError(f"{path} has {found}, not three columns of coordinates: {remedy}")
+    return arrays[0]
 
 
 def _read(path: str) -> Any:
     """A table of arrays by name, with a ValueError in place of one without numbers; or a data set."""
     suffix = Path(path).suffix.lower()
-    if path == "-":
-        return _read_text(sys.stdin)
-    with open(path, encoding="utf-8-sig", errors="replace", newline="") as file:
-        if suffix in _TEXT:
-            return _read_text(file)
+    if path == "-" or suffix in _TEXT:
+        file = sys.stdin.fileno() if path == "-" else path
+        with open(file, encoding="utf-8-sig", errors="replace", newline="", closefd=path != "-") as text:
+            return _read_text(text)
     if suffix == ".npy":
         with open(path, "rb") as binary:
             array = np.lib.format.read_array(binary)
@@ -121,6 +146,7 @@ def _read(path: str) -> Any:
             return {name: _numbers(archive, name) for name in archive.files}
     if suffix == ".ply":
         return _read_ply(path)
+    open(path, "rb").close()
     if importlib.util.find_spec("pyvista"):
         import pyvista
 
@@ -148,9 +174,9 @@ def _numbers(table: Any, name: str) -> Any:
     """An array by name, or a ValueError in place of one without numbers."""
     with contextlib.suppress(ValueError):  # of Python's objects
         array = table[name]
-        if array.dtype.kind in "biuf" and 0 not in array.shape[1:]:
+        if isinstance(array, np.ndarray) and array.dtype.kind in "biuf" and 0 not in array.shape[1:]:
             return array
-    return ValueError(f'the array "{name}" holds no numbers')
+    return ValueError(f'"{name}" holds no numbers')
 
 
 def _default_names(count: int) -> list[str]:
@@ -160,12 +186,15 @@ def _default_names(count: int) -> list[str]:
 
 def _read_text(file: TextIO) -> dict[str, Any]:
     """Columns between commas, semicolons, tabs or blanks, below a line of names, if there is one, perhaps in a
-    comment. Where commas do not separate, they may be decimal."""
+    comment. Those with an empty name, such as the index of pandas, are left out. Where commas do not separate, they may
+    be decimal."""
     head: list[str] = []  # up to the first line that is no comment
     while not head or not head[-1].strip() or head[-1].startswith("#"):
         head.append(file.readline())
         if not head[-1]:
             raise ValueError("it is empty")
+        if "\0" in head[-1]:
+            raise ValueError("it is in UTF-16, or no text: save it as text in UTF-8")
     line = re.sub('"[^"]*"', "", head[-1])
     are_decimal = re.fullmatch(r"\s*([-+]?\d*,?\d+(e[-+]?\d+)?\s+){2,}", line.lower() + " ")
     delimiter = " " if are_decimal else next((each for each in "\t;," if each in line), " ")
@@ -185,7 +214,7 @@ def _read_text(file: TextIO) -> dict[str, Any]:
 
     def number(text: str) -> Optional[float]:
         try:
-            return float(text if delimiter == "," else text.replace(",", "."))
+            return to_number(text if delimiter == "," else text.replace(",", "."))
         except ValueError:
             return math.nan if text.strip().lower() in _MISSING else None
 
@@ -194,26 +223,54 @@ def _read_text(file: TextIO) -> dict[str, Any]:
     if not first[1]:
         raise ValueError("it is empty")
     names = [name.strip() for name in first[1]]
-    if None not in map(number, names):
+    are_pandas = names == ["", *map(str, range(len(names) - 1))]  # which names columns so if the user does not
+    if None not in map(number, names) and not are_pandas:
         rows = chain([first], rows)
         comment = next((row for _, row in rows_of([line.lstrip("# ") for line in head[-2:-1]])), [])
         names = [name.strip() for name in comment] if len(comment) == len(names) else _default_names(len(names))
-    twice = next((name for i, name in enumerate(names) if name in names[:i]), None)
+    twice = next((name for i, name in enumerate(names) if name and name in names[:i]), None)
     if twice is not None:
         raise ValueError(f'two columns have the name "{twice}"')
-    columns: dict[str, Any] = {name: [np.zeros(0)] for name in names}
+    columns: dict[str, Any] = {name: [np.zeros(0)] for name in names if name}
+    clear: dict[tuple[str, str], str] = {}  # a number by its comma or point, which is decimal, and its column
+    unclear: dict[tuple[str, str], str] = {}  # the same for what may separate thousands
     while chunk := list(islice(rows, 50_000)):
         for line, row in chunk:
             if len(row) != len(names):
                 raise ValueError(f"line {line} has {len(row)} entries instead of {len(names)}")
         for name, *texts in zip(names, *(row for _, row in chunk)):
+            if not isinstance(columns.get(name), list):
+                continue
             parsed = list(map(number, texts))
-            if None in parsed and isinstance(columns[name], list):
+            if None in parsed:
                 i = parsed.index(None)
                 columns[name] = ValueError(f'"{texts[i]}" in line {chunk[i][0]}, column "{name}", is no number')
-            elif isinstance(columns[name], list):
-                columns[name].append(np.array(parsed))
+                continue
+            columns[name].append(np.array(parsed))
+            for mark in ",." if delimiter != "," else "":
+                for text in (text for text in texts if mark in text and (mark, name) not in clear):
+                    (unclear if _MAYBE_THOUSANDS.fullmatch(text) else clear).setdefault((mark, name), text)
+    _check_thousands(columns, clear, unclear)
     return {name: np.concatenate(parts) if isinstance(parts, list) else parts for name, parts in columns.items()}
+
+
+def _check_thousands(columns: dict[str, Any], clear: dict[tuple[str, str], str], unclear: dict[tuple[str, str], str]
+                     ) -> None:
+    """Puts a ValueError in place of columns whose commas, or points, separate thousands; warns of those that may."""
+    decimal = {mark: text for (mark, name), text in clear.items() if isinstance(columns[name], list)}
+    doubtful = []
+    for (mark, name), text in unclear.items():
+        other = "." if mark == "," else ","
+        if (mark, name) in clear or not isinstance(columns[name], list):
+            continue
+        if other in decimal:
+            columns[name] = ValueError(f'"{text}", column "{name}", and "{decimal[other]}" cannot both be decimal:'
+                                       " remove separators of thousands")
+        elif mark == "," and not decimal:
+            doubtful.append(f'"{text}", column "{name}"')
+    if doubtful:
+        warnings.warn(f"The comma in {doubtful[0]}, is read as a decimal point. If commas separate thousands, remove"
+                      " them.", RuntimeWarning, stacklevel=2)
 
 
 def _read_ply(path: str) -> dict[str, np.ndarray]:
@@ -230,12 +287,25 @@ def _read_ply(path: str) -> dict[str, np.ndarray]:
             kind = np.dtype([(name, np.dtype(PLY_TYPES.get(each, each)).newbyteorder(order))
                              for _, each, name in properties])
             count = int(header[begin][2])
-            if header[0] != ["ply"] or header[begin][1] != "vertex" or count < 0:
+            if header[0] != ["ply"] or header[begin][1] != "vertex" or not header[begin][2].isdecimal():
                 raise ValueError
         except (LookupError, StopIteration, TypeError, ValueError):
             raise ValueError("its header is not that of a PLY file that begins with vertices of numbers") from None
-        table = (np.loadtxt(islice(file, count), kind, ndmin=1) if order == "=" else
-                 np.fromfile(file, kind, count))
+        if order == "=":
+            table = np.loadtxt(_lines_of_numbers(islice(file, min(count, sys.maxsize))), kind, ndmin=1)
+        else:
+            data = bytearray()  # in parts: a damaged header may claim more than there is memory for
+            while part := file.read(min(count * kind.itemsize - len(data), 1 << 24)):
+                data += part
+            table = np.frombuffer(data, kind, len(data) // kind.itemsize)
     if len(table) != count:
         raise ValueError(f"it ends after {len(table)} of {count} vertices")
     return {name: table[name] for name in kind.names}
+
+
+def _lines_of_numbers(lines: Iterable[bytes]) -> Iterator[bytes]:
+    """Lines without underscores, which older versions of NumPy ignore within numbers."""
+    for line in lines:
+        if b"_" in line:
+            raise ValueError(f"{line.decode('ascii', 'replace').strip()} are no numbers")
+        yield line

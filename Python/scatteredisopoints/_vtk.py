@@ -2,7 +2,7 @@
 """The filters in Python, on the C library, for versions of VTK without the compiled classes.
 
 Methods, constants, defaults, ranges, output arrays and messages are those of the compiled classes, which
-document them. docs/python.md lists the differences.
+document them. docs/python.md in the source lists the differences.
 """
 
 from __future__ import annotations

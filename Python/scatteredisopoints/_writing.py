@@ -9,6 +9,9 @@ import errno
 import importlib.util
 import math
 import os
+import re
+import secrets
+import shutil
 import warnings
 import zipfile
 from pathlib import Path
@@ -17,7 +20,7 @@ from typing import Any, Callable, Iterator, Union
 import numpy as np
 
 from ._isosurface import Isosurface
-from ._reading import PLY_TYPES
+from ._reading import END_OF_NAME, PLY_TYPES, without_unit
 
 Writer = Callable[[str, Isosurface], Any]
 _OF_PYVISTA = (".vtk", ".vtp", ".vtu")
@@ -43,22 +46,36 @@ def writer_for(path: str, are_triangles: bool) -> Writer:
 
 @contextlib.contextmanager
 def file_to_write(path: str) -> Iterator[str]:
-    """The name of a file that takes the place of another one, unless what writes it fails. Raises OSError at once if it
-    cannot be written."""
-    path = os.path.realpath(path)
-    if not os.path.isdir(os.path.dirname(path)):
+    """The name of a file that takes the place of another one, and its permissions, unless what writes it fails. A
+    symbolic link stays, and the file that it names is replaced; devices and pipes are written in place. Raises OSError
+    at once if the file cannot be written."""
+    if os.path.exists(path) and not os.path.isfile(path):
+        yield path
+        return
+    name, path = os.path.basename(path), os.path.realpath(path)
+    folder = os.path.dirname(path)
+    if not os.path.isdir(folder):
         raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), path)
-    is_device = os.path.exists(path) and not os.path.isfile(path)
-    target = path if is_device else f"{path}.part{Path(path).suffix}"
+    # Nobody can guess the name of this folder and put a link there.
+    private = os.path.join(folder, f".{secrets.token_hex(8)}")
+    target = os.path.join(private, name)
     try:
-        if not is_device:
-            open(target, "wb").close()
-            os.unlink(target)  # what writes nothing must not leave an empty file
+        # tempfile.mkdtemp() makes folders whose files, on Windows, stay those of one user when they are moved.
+        os.mkdir(private, 0o777 if os.name == "nt" else 0o700)
         yield target
+        if not os.path.exists(target):
+            raise OSError(f"{path} cannot be written: is the disk full?")
+        if os.path.exists(path):
+            shutil.copymode(path, target)
+        for further in {*os.listdir(private)} - {name}:  # some formats of meshio are several files
+            os.replace(os.path.join(private, further), os.path.join(folder, further))
         os.replace(target, path)
+    except OSError as error:
+        if error.filename in (private, target):
+            raise OSError(error.errno, error.strerror, path) from error
+        raise
     finally:
-        if target != path and os.path.exists(target):
-            os.unlink(target)
+        shutil.rmtree(private, ignore_errors=True)
 
 
 def _columns(surface: Isosurface) -> Iterator[tuple[str, np.ndarray]]:
@@ -69,14 +86,34 @@ def _columns(surface: Isosurface) -> Iterator[tuple[str, np.ndarray]]:
         yield from zip([name] if len(flat) == 1 else [f"{name}:{i}" for i in range(len(flat))], flat)
 
 
+def _labeled(surface: Isosurface, kind: str, label_of: Callable[[str], str], usual: dict[str, str]
+             ) -> dict[str, np.ndarray]:
+    """Columns by labels that differ, also from the coordinates for our own reader. Usual labels of some names are kept
+    for these."""
+    given = list(_columns(surface))
+    columns, reserved = dict(given[:3]), [usual[name] for name, _ in given if name in usual]
+    for name, array in given[3:]:
+        label = plain = usual.get(name, label_of(name))
+        while label in columns or without_unit(label) in {*"xyz"} or label in reserved and name not in usual:
+            label = re.sub(END_OF_NAME, "_", label, count=1)
+        if label != plain:
+            warnings.warn(f'"{name}" has the name "{label}" in the {kind} file, since "{plain}" names something else.',
+                          RuntimeWarning, stacklevel=5)
+        columns[label] = array
+    return columns
+
+
 def write_csv(path: Union[str, int], surface: Isosurface) -> None:
     """Writes points and arrays to a file or to its descriptor."""
-    names, arrays = zip(*_columns(surface))
+    columns = _labeled(surface, "CSV", lambda name: " ".join(name.split()), {})
     with open(path, "w", encoding="utf-8", newline="", closefd=isinstance(path, str)) as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(names)
+        # A semicolon without quotes would separate columns.
+        csv.writer(file, lineterminator="\n", quoting=csv.QUOTE_ALL if ";" in "".join(columns) else csv.QUOTE_MINIMAL
+                   ).writerow(columns)
         # str() of a float32 is the shortest text that gives it.
-        writer.writerows(zip(*(map(str, array) if array.dtype == np.float32 else array.tolist() for array in arrays)))
+        writer.writerows(zip(*(map(str, array) if array.dtype == np.float32 else array.tolist()
+                               for array in columns.values())))
 
 
 def _write_npz(path: str, surface: Isosurface) -> None:
@@ -93,17 +130,8 @@ def _write_npz(path: str, surface: Isosurface) -> None:
 
 def _write_ply(path: str, surface: Isosurface) -> None:
     types = {kind: name for name, kind in PLY_TYPES.items()}
-    usual = {f"Normals:{i}": "n" + axis for i, axis in enumerate("xyz")}
-    given = list(_columns(surface))
-    columns, reserved = dict(given[:3]), [usual[name] for name, _ in given if name in usual]
-    for name, array in given[3:]:
-        label = plain = usual.get(name, "_".join(name.split()).encode("ascii", "replace").decode())
-        while label in columns or label in reserved and name not in usual:
-            label += "_"
-        if label != plain:
-            warnings.warn(f'"{name}" has the name "{label}" in the PLY file, since "{plain}" is another array.',
-                          RuntimeWarning, stacklevel=4)
-        columns[label] = array
+    columns = _labeled(surface, "PLY", lambda name: "_".join(name.split()).encode("ascii", "replace").decode(),
+                       {f"Normals:{i}": "n" + axis for i, axis in enumerate("xyz")})
     kinds = {name: array.dtype.str[1:] if array.dtype.str[1:] in types else "f8" for name, array in columns.items()}
     vertices = np.empty(len(surface), [(name, "<" + kind) for name, kind in kinds.items()])
     for name, array in columns.items():

@@ -6,18 +6,24 @@ import importlib.util
 import io
 import os
 import pathlib
+import pydoc
 import re
 import shlex
 import signal
+import stat
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
+import warnings
+import zipfile
 from unittest import mock
 
 import numpy as np
 from scatteredisopoints import _command_line, _reading, _writing, body, contour, probe, slice_samples
+from scatteredisopoints._option_types import OptionsOfPoints
 
 HAS_PYVISTA, HAS_MESHIO = (importlib.util.find_spec(name) is not None for name in ("pyvista", "meshio"))
 COMMAND = [sys.executable, "-m", "scatteredisopoints"]
@@ -258,7 +264,7 @@ class CommandLine(unittest.TestCase):
             *((f"contour a.csv T 0.3 --option {name}=1", 1, f"unknown option {name}: ")
               for name in ("triangles", "isovalues", "progress")),
             *((f"slice a.csv --option {name}=1", 1, f"unknown option {name}: ") for name in ("normal", "function")),
-            *((f"contour a.npz {name} 1", 1, f'the array "{name}" holds no numbers')
+            *((f"contour a.npz {name} 1", 1, f'"{name}" holds no numbers')
               for name in ("words", "objects", "dates", "nothing")),
             ("contour open.csv T 5", 1, "a quote in line 3 is not closed"),
             ("contour head_open.csv T 5", 1, "a quote in line 1 is not closed"),
@@ -282,7 +288,9 @@ class CommandLine(unittest.TestCase):
             ("probe a.csv --grid 1,0,1", 2, "--grid: 1,0,1: give three whole"), ("contour a.csv T", 2, "ISOVALUE"),
             ("contour a.csv T x", 2, "x: give a number$"),
             ("contour a.csv T 1 --threads 0", 2, "--threads: 0: give a whole number, 1 or more$"),
-            ("contour a.csv T 1 --thread 1", 2, "unrecognized"), ("", 2, "COMMAND"), ("nothing", 2, "nothing"),
+            ("contour a.csv T 1 --thread 1", 2, "unrecognized"),
+            ("contour a.csv T 1 --unknown -2", 2, "unrecognized arguments: --unknown -2$"),
+            ("", 2, "COMMAND"), ("nothing", 2, "nothing"),
             ("contour cut.vtu T 0.3", 1, "cut.vtu" if HAS_PYVISTA or HAS_MESHIO else "needs PyVista or meshio: pip")]
         before = set(os.listdir())
         for text, expected, message in cases:
@@ -295,18 +303,286 @@ class CommandLine(unittest.TestCase):
                 self.assertEqual(set(os.listdir()), before)
 
     def test_earlier_files_stay_if_writing_fails(self):
+        before = os.listdir()
         pathlib.Path("made.ply").write_text("earlier")
 
         def fail(path, _):
             pathlib.Path(path).write_text("half")
             raise OSError(28, "No space left on device", path)
 
+        def write_nothing(*_):
+            pass
+
+        with mock.patch.dict(_writing._WRITERS, {".ply": write_nothing}):
+            self.assertRegex(run("contour", "a.npz", "T", 0.3, "-o", "made.ply")[2], "made.ply cannot be written")
+
         with mock.patch.dict(_writing._WRITERS, {".ply": fail}):
             status, _, errors = run("contour", "a.npz", "T", 0.3, "-o", "made.ply")
         self.assertEqual(status, 1)
-        self.assertRegex(errors, "No space left")
+        self.assertRegex(errors, "error: [^ ]*made.ply: No space left")
+        with mock.patch("os.mkdir", side_effect=lambda path, _: os.rmdir(path)):  # which fails as os.mkdir() may
+            with self.assertRaisesRegex(OSError, r"[^ ]*made.ply'\Z"), _writing.file_to_write("made.ply"):
+                pass
         self.assertEqual(pathlib.Path("made.ply").read_text(), "earlier")
-        self.assertEqual(list(pathlib.Path().glob("*part*")), [])
+        self.assertEqual(set(os.listdir()), {*before, "made.ply"})
+
+    def test_files_beside_the_output_stay(self):
+        """Neither files nor links of others are written to, and two runs do not collide."""
+        for name in ("made.ply.part.ply", "kept"):
+            pathlib.Path(name).write_text("of the user")
+        with contextlib.suppress(OSError):  # of systems without links for everyone
+            os.symlink("kept", "linked.ply.part.ply")
+        before = set(os.listdir())
+        for name in ("made.ply", "linked.ply"):
+            self.assertEqual(run("contour", "a.npz", "T", 0.3, "-o", name)[0], 0)
+        self.assertEqual(set(os.listdir()), {*before, "made.ply", "linked.ply"})
+        for name in ("made.ply.part.ply", "kept"):
+            self.assertEqual(pathlib.Path(name).read_text(), "of the user")
+        with _writing.file_to_write("both.csv") as first, _writing.file_to_write("both.csv") as second:
+            self.assertNotEqual(first, second)
+            self.assertEqual({*map(os.path.basename, (first, second))}, {"both.csv"})
+            for path in (first, second):
+                pathlib.Path(path).write_text(path)
+                if os.name == "posix":
+                    self.assertEqual(os.stat(os.path.dirname(path)).st_mode & 0o777, 0o700)
+        self.assertEqual(pathlib.Path("both.csv").read_text(), first)
+        with _writing.file_to_write("two.xdmf") as path:
+            for each in (path, path.replace("xdmf", "h5")):
+                pathlib.Path(each).write_text(each)
+        self.assertEqual(set(os.listdir()), {*before, "made.ply", "linked.ply", "both.csv", "two.xdmf", "two.h5"})
+
+    @unittest.skipIf(sys.platform == "win32", "links are not for everyone")
+    def test_links_stay(self):
+        os.mkdir("there")
+        for name in ("link.ply", "dangling.ply"):
+            os.symlink(f"there/{name}.data", name)
+        pathlib.Path("there/link.ply.data").write_text("earlier")
+        for name in ("link.ply", "dangling.ply"):
+            self.assertEqual(run("contour", "a.npz", "T", 0.3, "-o", name)[0], 0)
+            self.assertTrue(os.path.islink(name) and pathlib.Path(name).read_bytes().startswith(b"ply"))
+        self.assertEqual(set(os.listdir("there")), {"link.ply.data", "dangling.ply.data"})
+
+    @unittest.skipIf(sys.platform == "win32", "permissions are others")
+    def test_permissions(self):
+        before = os.umask(0o027)
+        try:
+            for name, mode in (("secret.ply", 0o600), ("all.ply", 0o666), ("new.ply", None)):
+                if mode is not None:
+                    pathlib.Path(name).write_text("earlier")
+                    os.chmod(name, mode)
+                self.assertEqual(run("contour", "a.npz", "T", 0.3, "-o", name)[0], 0)
+                self.assertEqual(os.stat(name).st_mode & 0o777, mode or 0o640)
+        finally:
+            os.umask(before)
+
+    @unittest.skipIf(sys.platform == "win32", "there are no such files")
+    def test_pipes_and_devices(self):
+        os.mkfifo("fifo.csv")
+        os.symlink("/dev/stdout", "out.csv")
+        self.assertEqual(run("contour", "a.npz", "T", 0.3, "-o", "file.csv")[0], 0)
+        expected = pathlib.Path("file.csv").read_text()
+        for name in ("fifo.csv", "out.csv"):
+            with subprocess.Popen([*COMMAND, "contour", "a.npz", "T", "0.3", "-o", name], stdout=subprocess.PIPE,
+                                  text=True) as process:
+                if name == "fifo.csv":
+                    self.assertEqual(pathlib.Path(name).read_text(), expected)
+                self.assertTrue(process.stdout.read().startswith(expected if name == "out.csv" else "fifo.csv: "))
+                self.assertEqual(process.wait(), 0)
+        self.assertTrue(stat.S_ISFIFO(os.stat("fifo.csv").st_mode) and os.path.islink("out.csv"))
+
+    def assert_the_same(self, *names, **options):
+        """The command gives for each file what contour() gives for the arrays."""
+        expected = contour(POSITIONS, VALUES, 0.3, triangles=True)
+        for name in names:
+            with self.subTest(name):
+                np.testing.assert_array_equal(self.made("contour", name, "T", 0.3)["points"], expected.points)
+
+    def test_columns_of_pandas(self):
+        rows = [",".join([f"{i}", *map(repr, row)]) for i, row in enumerate(TABLE.tolist())]
+        for name, header in (("pandas.csv", ",x,y,z,T"), ("numbers.csv", ",0,1,2,3")):
+            pathlib.Path(name).write_text("\n".join([header, *rows]) + "\n")
+        pathlib.Path("comma.csv").write_text("".join(f"{row},\n" for row in ["x,y,z,T", *(
+            row.partition(",")[2] for row in rows)]))
+        self.assert_the_same("pandas.csv", "comma.csv")
+        np.testing.assert_array_equal(
+            self.made("contour", "numbers.csv", "3", 0.3, "--columns", "0,1,2")["points"],
+            self.made("contour", "pandas.csv", "T", 0.3)["points"])
+        self.assertRegex(run("contour", "numbers.csv", "3", 0.3)[2], 'no "x": .* there are 0, 1, 2, 3\n$')
+
+    def test_byte_order_marks(self):
+        text = pathlib.Path("a.csv").read_bytes()
+        done = subprocess.run([*COMMAND, "contour", "-", "T", "0.3"], input=b"\xef\xbb\xbf" + text, capture_output=True)
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
+        for kind in ("utf-16", "utf-16-le", "utf-16-be"):
+            other = text.decode().encode(kind)
+            pathlib.Path("other.csv").write_bytes(other)
+            done = subprocess.run([*COMMAND, "contour", "-", "T", "0.3"], input=other, capture_output=True, text=False)
+            for errors in (run("contour", "other.csv", "T", 0.3)[2], done.stderr.decode()):
+                self.assertRegex(errors, r"error: (other.csv|-) cannot be read: it is in UTF-16, .* in UTF-8\r?\n\Z")
+
+    def test_members_that_are_no_arrays(self):
+        with zipfile.ZipFile("a.npz", "a") as archive:
+            archive.writestr("readme.txt", "of the measurement")
+        self.assert_the_same("a.npz")
+        self.assertRegex(run("contour", "a.npz", "readme.txt", 0.3)[2], 'a.npz: "readme.txt" holds no numbers\n$')
+
+    def test_headers_that_claim_too_much(self):
+        for kind, content in (("ascii", b"1 2 3\n"), ("binary_little_endian", bytes(24)),
+                              ("binary_big_endian", bytes(30))):
+            for count in (10**12, 10**30):
+                header = (f"ply\nformat {kind} 1.0\nelement vertex {count}\nproperty double x\nproperty double y\n"
+                          "property double z\nend_header\n")
+                pathlib.Path("claim.ply").write_bytes(header.encode() + content)
+                status, _, errors = run("body", "claim.ply")
+                self.assertRegex(errors, rf"error: claim.ply cannot be read: it ends after 1 of {count} vertices\n\Z")
+                self.assertEqual(status, 1)
+
+    @unittest.skipIf(sys.platform == "win32", "there are no such files")
+    def test_pipes_of_vertices(self):
+        for name in ("ascii.ply", "big.ply"):
+            os.mkfifo("fifo.ply")
+            write = pathlib.Path("fifo.ply").write_bytes
+            threading.Thread(target=write, args=(pathlib.Path(name).read_bytes(),), daemon=True).start()
+            done = subprocess.run([*COMMAND, "contour", "fifo.ply", "T", "0.3"], capture_output=True, timeout=100)
+            self.assertEqual((done.returncode, done.stderr), (0, b""))
+            os.unlink("fifo.ply")
+
+    def test_names_in_csv_files(self):
+        """They are such that the file can be read."""
+        arrays = {"x": VALUES, "X": VALUES, "y [m]": VALUES, "z(m)": VALUES, "a;b": VALUES, "a,b": VALUES,
+                  "c\nd": VALUES, " T": VALUES, 'q"': VALUES, "v": POSITIONS, "v:0": VALUES}
+        np.savez("like.npz", points=POSITIONS, T=VALUES, **arrays)
+        for kind in ("csv", "ply"):
+            status, _, errors = run("contour", "like.npz", "T", 0.3, "-o", f"like.{kind}", "--columns", "points")
+            found = _reading.read_samples(f"like.{kind}")
+            np.testing.assert_array_equal(found.positions, contour(POSITIONS, VALUES, 0.3, triangles=True).points)
+            self.assertRegex(errors, f'"x" has the name "x_" in the {kind.upper()} file, since "x" names something')
+            if kind == "csv":
+                self.assertEqual(set(found.arrays) - {f"Normals:{i}" for i in range(3)}, {
+                    "T", "x_", "X_", "y_ [m]", "z_(m)", "a;b", "a,b", "c d", "T_", 'q"', "v:0", "v:1", "v:2", "v:0_"})
+                self.assertEqual(errors.count("warning"), 6)
+        np.savez("x.npz", points=POSITIONS, x=VALUES)
+        done = subprocess.run([*COMMAND, "probe", "x.npz", "--at", "0.5,0.5,0.5"], capture_output=True, text=True)
+        self.assertRegex(done.stdout, r"\Ax,y,z,x_\n")
+        self.assertRegex(done.stderr, r'\A[^\n]*probe: warning: "x" has the name "x_" in the CSV file[^\n]*\n\Z')
+
+    def test_isovalues_that_are_not_finite_or_have_exponents(self):
+        for text, shown in (("-inf", "-inf"), ("-Infinity", "-inf"), ("inf", "inf"), ("-1e5", "-100000"),
+                            ("-.5", "-0.5"), ("-5.", "-5"), ("1e-3", "0.001"), ("-1E-3", "-0.001")):
+            for arguments in ((text,), ("--threads", 1, text), ("--", text)):
+                status, _, errors = run("contour", "a.npz", "T", *arguments)
+                self.assertRegex(errors, rf"\A.*error: No isosurface at {shown}: .*\n\Z")
+        self.assertRegex(run("contour", "a.npz", "T", "-nan")[2], "An isovalue is not a number")
+        self.assertEqual(run("probe", "a.npz", "T", "--at", "9,9,9", "--outside", "-inf", "-o", "out.csv")[0], 0)
+        self.assertEqual(pathlib.Path("out.csv").read_text(), "x,y,z,T\n9.0,9.0,9.0,-inf\n")
+
+    def test_names_that_begin_with_a_hyphen(self):
+        for before, name in (("a.csv", "-x.csv"), ("-x.csv", "-2.csv"), ("-2.csv", "-o.csv")):
+            os.replace(before, name)
+            for arguments in (("contour", "-o", "made.csv", "--", name, "T", "0.3"),
+                              ("contour", "-o", "-1.csv", "--", name, "T", "0.3", "4e-1")):
+                self.assertEqual(run(*arguments)[0::2], (0, ""))
+            os.unlink("-1.csv")
+        self.assertRegex(run("contour", "-2.csv", "T", 0.3)[2], "error: -2.csv: No such file")
+        np.savez("a.npz", **{"points": POSITIONS, "-x": VALUES})
+        self.assertEqual(run("contour", "a.npz", "-x", 0.3)[0], 0)
+
+    def test_underscores_are_in_no_numbers(self):
+        row = "1_0,2,3,4"
+        for name, text in (("a.csv", f"x,y,z,T\n{row}\n"), ("a.tsv", "x\ty\tz\tT\n" + row.replace(",", "\t"))):
+            pathlib.Path(name).write_text(text)
+            self.assertRegex(run("contour", name, "T", 1)[2], f'{name}: "1_0" in line 2, column "x", is no number')
+        header = "ply\nformat ascii 1.0\nelement vertex {}\n" + "".join(f"property int {axis}\n" for axis in "xyz")
+        for count, body, message in (("1", "1_0 2 3", "1_0 2 3 are no numbers"), ("1_0", "1 2 3\n" * 10, "its header")):
+            pathlib.Path("a.ply").write_text(f"{header.format(count)}end_header\n{body}\n")
+            self.assertRegex(run("body", "a.ply")[2], f"a.ply cannot be read: {message}")
+        for text in ("contour a.npz T 1_0", "contour a.npz T 1 --threads 1_0", "slice a.npz --offsets 0,1_0",
+                     "slice a.npz --normal 1_0,0,0", "slice a.npz --origin 1_0,0,0", "probe a.npz --at 1_0,0,0",
+                     "probe a.npz --grid 1_0,2,2", "probe a.npz --at 1,2,3 --outside 1_0"):
+            status, _, errors = run(*text.split())
+            self.assertEqual(status, 2, text)
+            self.assertRegex(errors, r"1_0.*: give ")
+        for name in ("minimum_piece_size", "drop_gaps", "projection"):
+            self.assertRegex(run("contour", "a.npz", "T", 0.3, "--option", f"{name}=1_0")[2], f"{name} cannot be '1_0'")
+
+    def test_separators_of_thousands(self):
+        """Commas are decimal if any of the file must be, and doubtful if each may separate thousands."""
+        for kind, separator in (("csv", ";"), ("tsv", "\t"), ("txt", " ")):
+            def texts(column, form, positions=POSITIONS):
+                """The file with one column like this."""
+                rows = [[*map(str, place), str(value)] for place, value in zip(positions.tolist(), VALUES.tolist())]
+                for i, row in enumerate(rows):
+                    row[column] = form(i)
+                return "".join(separator.join(row) + "\n" for row in [["x", "y", "z", "T"], *rows])
+
+            def read(text):
+                pathlib.Path(f"a.{kind}").write_text(text)
+                with warnings.catch_warnings(record=True) as caught:
+                    warnings.simplefilter("always")
+                    samples = _reading.read_samples(f"a.{kind}", ["T"])
+                return samples.arrays["T"], [str(each.message) for each in caught]
+
+            def thousand(i):
+                return f"{1000 + i:,}"
+
+            with self.subTest(kind):
+                with self.assertRaisesRegex(ValueError, r'a\..*: "1,000", column "T", and "0\.\d+" cannot both be'):
+                    read(texts(3, thousand))
+                with self.assertRaisesRegex(ValueError, '"1.000", column "T", and "0,.*" cannot both be decimal'):
+                    read(texts(3, thousand).replace(".", ";;").replace(",", ".").replace(";;", ","))
+                values, messages = read(texts(3, thousand).replace(".", ","))
+                np.testing.assert_array_equal(values, np.arange(1000, 4000) / 1000)
+                self.assertEqual(messages, [])
+                whole = np.arange(9000).reshape(-1, 3) % 100
+                values, messages = read(texts(3, thousand, whole))
+                np.testing.assert_array_equal(values, np.arange(1000, 4000) / 1000)
+                self.assertEqual(messages, ['The comma in "1,000", column "T", is read as a decimal point. If commas'
+                                            ' separate thousands, remove them.'])
+                for number in ("0,125", "1,5", "12,3456", "1234,567", "1,250e3", ",125"):
+                    _, messages = read(texts(3, lambda i: number if i == 2000 else thousand(i), whole))
+                    self.assertEqual(messages, [], number)
+                values, messages = read(texts(3, lambda i: f"{1 + i % 9}.500", whole))
+                self.assertEqual((values[0], messages), (1.5, []))
+        pathlib.Path("words.tsv").write_text("x\ty\tz\tT\tname\n1\t2\t3\t1.5\t1,000\n1\t2\t4\t1.5\ta, b\n")
+        self.assertEqual(_reading.read_samples("words.tsv").arrays["T"].tolist(), [1.5, 1.5])
+
+    def test_columns_of_places(self):
+        for name, header in (("named.csv", "e,n,h,T"), ("places.csv", "h,n,e")):
+            rows = TABLE.tolist() if name == "named.csv" else [[0.3, 0.4, 0.5]]
+            pathlib.Path(name).write_text("".join(",".join(row) + "\n" for row in [
+                header.split(","), *(map(repr, row) for row in rows)]))
+        np.save("plain.npy", [[0.5, 0.4, 0.3]])
+        for name in ("places.csv", "plain.npy"):
+            found = self.made("probe", "named.csv", "--columns", "e,n,h", "--places", name)
+            np.testing.assert_array_equal(found["points"], [[0.5, 0.4, 0.3]])
+        for arguments in (("a.npz", "--places", "places.csv"),
+                          ("a.csv", "--places", "places.csv", "--columns", "z,x,y")):
+            self.assertRegex(run("probe", *arguments)[2], 'error: places.csv has no "x": name the coordinates x, y, z,'
+                             ' or as in FILE; there are h, n, e\n$')
+
+    def test_options_by_name(self):
+        for text, value in (("false", False), ("False", False), ("TRUE", True), ("0", False)):
+            found = self.made("contour", "a.npz", "T", 0.6, "--option", f"drop_gaps={text}")
+            expected = contour(POSITIONS, VALUES, 0.6, triangles=True, drop_gaps=value)
+            np.testing.assert_array_equal(found["points"], expected.points)
+        found = self.made("contour", "a.npz", "T", 0.3, "--points", "--option", "projection=none")
+        np.testing.assert_array_equal(found["points"], contour(POSITIONS, VALUES, 0.3, projection=None).points)
+        for text in ("no", "off", "", "2"):
+            self.assertRegex(run("contour", "a.npz", "T", 0.6, "--option", f"drop_gaps={text}")[2],
+                             "error: drop_gaps cannot be .*: it is True or False\n$")
+
+    def test_files_without_three_coordinates(self):
+        pathlib.Path("flat.csv").write_text("x,y,T\n1,2,3\n2,3,4\n3,5,7\n4,4,4\n")
+        np.savez("flat.npz", points=POSITIONS[:, :2], T=VALUES)
+        np.savez("lengths.npz", x=VALUES, y=VALUES, z=VALUES[1:], T=VALUES)
+        for text, message in (
+                ("flat.csv", 'flat.csv has no "z": add it, or give the coordinates by --columns; there are x, y, T'),
+                ("flat.csv --columns x,y", r'flat.csv has "x" of the shape \(4,\), "y" of the shape \(4,\), not three'
+                 " columns of coordinates: give the coordinates by --columns; there are x, y, T"),
+                ("flat.npz", r'flat.npz has "points" of the shape \(3000, 2\), not three columns .*: give .*--columns'),
+                ("lengths.npz", r'lengths.npz has "x" of the shape \(3000,\), .*"z" of the shape \(2999,\), not')):
+            name, *rest = text.split()
+            self.assertRegex(run("contour", name, "T", 3, *rest)[2], f"error: {message}")
 
     def test_help(self):
         for name in ("contour", "body", "slice", "probe"):
@@ -317,8 +593,30 @@ class CommandLine(unittest.TestCase):
                 status, _, errors = run(*shlex.split(example))
                 self.assertEqual(status, 1, errors)
                 self.assertRegex(errors, "No such file")
+            self.assertNotRegex(out, r"docs/|\.md\b")  # which the wheel lacks
+            described = re.findall("python -m pydoc (.*) describes", out)
+            self.assertEqual([pydoc.locate(each) is not None for each in described], [True] * (name != "probe"))
+            for name, value in re.findall(r"^  (\w+)=(.*)$", out, re.MULTILINE):
+                value = {"COUNT": "12", "NUMBER": "0.5"}.get(value, value.split("|")[-1])
+                command = found[0].split()[0]
+                status, _, errors = run(command, "a.npz", *["T", "0.3"] * (command == "contour"),
+                                        *["--points"] * (name in OptionsOfPoints.__annotations__),
+                                        "--option", f"{name}={value}", "-o", "made.ply")
+                self.assertEqual((status, errors), (0, ""), name)
         self.assertRegex(run("paraview")[1], "scattered_isopoints.py")
         self.assertRegex(run("--version")[1], r"^\d+\.\d+\.\d+$")
+
+    def test_names_of_the_program(self):
+        """What pip installs calls main() without arguments, and says its own name."""
+        script = ("import sys\nsys.argv = ['{}', *sys.argv[1:]]\n"
+                  "from scatteredisopoints._command_line import main\nsys.exit(main())")
+        for name, shown in (("bin/scatteredisopoints", "scatteredisopoints"),
+                            ("scatteredisopoints.exe", "scatteredisopoints"),
+                            ("scatteredisopoints/__main__.py", "python -m scatteredisopoints")):
+            done = subprocess.run([sys.executable, "-c", script.format(name), "contour", "a.csv", "T", "9"],
+                                  capture_output=True, text=True)
+            self.assertEqual(done.returncode, 1)
+            self.assertRegex(done.stderr, rf"\A{shown} contour: error: No isosurface")
 
     def test_pipes_that_are_closed_early(self):
         arguments = [*COMMAND, "probe", "a.npz", "--grid", "60,60,60"]
@@ -329,7 +627,7 @@ class CommandLine(unittest.TestCase):
 
     @unittest.skipIf(sys.platform == "win32", "there are no pseudo terminals")
     def test_terminals_and_interrupts(self):
-        random = np.random.default_rng(1)
+        before, random = os.listdir(), np.random.default_rng(1)
         np.save("large.npy", random.random((400_000, 4)))
         main, end = os.openpty()
         process = subprocess.Popen([*COMMAND, "contour", "large.npy", "value", *map(str, np.linspace(0.1, 0.9, 50))],
@@ -345,7 +643,7 @@ class CommandLine(unittest.TestCase):
         os.close(main)
         self.assertEqual(process.wait(), 1)
         self.assertRegex(shown.decode(), r"\A(\r *\d+ %\r)+\r?.*\r     \rpython.*contour: error: interrupted\r\n\Z")
-        self.assertEqual(list(pathlib.Path().glob("*.ply.part*")) + list(pathlib.Path().glob("large_*")), [])
+        self.assertEqual(set(os.listdir()), {*before, "large.npy"})
 
 
 if __name__ == "__main__":

@@ -808,6 +808,26 @@ class Imports(unittest.TestCase):
         loaded = set(result.stdout.split()) - set(sys.stdlib_module_names if sys.version_info >= (3, 10) else ())
         self.assertFalse(loaded & {"vtkmodules", "vtk", "pyvista", "cvista", "tqdm", "rich"})
 
+    def test_shared_libraries_that_are_missing(self):
+        """The remedy is for what the loader names."""
+        own = os.path.basename(_library.LIBRARY)
+        again = "Install this package again, for this system"
+        for text, remedy in (
+                ("libtbb.so.12: cannot open shared object file: No such file or directory", "has libtbb.so.12, "),
+                (f"Error loading shared library libgmp.so.10: No such file or directory (needed by /a/{own})",
+                 "has libgmp.so.10, "),
+                (f"dlopen(/a/{own}, 0x0006): Library not loaded: @rpath/libtbb.12.dylib\n  Referenced from: /a/{own}",
+                 "has libtbb.12.dylib, "),
+                (f"/a/{own}: cannot open shared object file: No such file or directory", again),
+                (f"/a/{own}: invalid ELF header", again),
+                (f"/lib/libc.so.6: version `GLIBC_2.38' not found (required by /a/{own})", again)):
+            script = (f"import ctypes\ndef load(path): raise OSError({text!r})\nctypes.CDLL = load\n"
+                      "import scatteredisopoints")
+            result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+            self.assertIn(f"ImportError: The C library cannot be loaded: {text}. ", result.stderr)
+            self.assertRegex(result.stderr, remedy)
+            self.assertEqual(again in result.stderr, remedy == again)
+
     def test_names(self):
         self.assertRegex(scatteredisopoints.__version__, r"^\d+\.\d+\.\d+$")
         names = set(scatteredisopoints.__all__)
@@ -830,6 +850,9 @@ class Imports(unittest.TestCase):
             text = f"{name} needs " + ("VTK: pip install vtk$" if is_in_python else "classes that are compiled")
             with self.assertRaisesRegex(ImportError, text):
                 exec(f"from scatteredisopoints import {name}")
+            with self.assertRaises(ImportError) as caught:
+                exec(f"from scatteredisopoints import {name}")
+            self.assertNotIn("docs/", str(caught.exception))  # which the wheel lacks
             with self.assertRaisesRegex(AttributeError, text):
                 getattr(scatteredisopoints, name)
             self.assertFalse(hasattr(scatteredisopoints, name))

@@ -144,6 +144,17 @@ def check_other_systems(builder, wheel, folder):
                      f" {paths['LIBRARY']}")
 
 
+def check_script(environment):
+    """The console script is the command line, and says its own name."""
+    script = environment.folder / "bin/scatteredisopoints"
+    version = environment.run("-c", "import scatteredisopoints; print(scatteredisopoints.__version__)")
+    if run([script, "--version"], env=clean_environment()) != version:
+        sys.exit(f"failed: {script} --version does not print {version}")
+    text = run([script, "contour", "--help"], env=clean_environment())
+    if not text.startswith("usage: scatteredisopoints contour"):
+        sys.exit(f"failed: {script} has another name in its help\n{text}")
+
+
 def check_results(environment, expected):
     found = environment.run(TESTS / "extractions.py")
     different = sum(a != b for a, b in zip(found.splitlines(), expected.splitlines()))
@@ -237,6 +248,7 @@ def main(folder, wheel=None):
             environment.run(TESTS / "TestPackage.py")
             environment.run(TESTS / "TestProbe.py")
             environment.run(TESTS / "TestCommandLine.py")
+            check_script(environment)
         print(environment.describe() + ": the same bytes")
 
     newest = max(version for version in pythons if version >= (3, 10))
@@ -247,7 +259,8 @@ def main(folder, wheel=None):
     check_results(environment, expected)
     examples = run_examples(environment, "python")
     print(f"{environment.describe()}: passed, {examples} examples of the documents")
-    environment = Environment(folder / "pyvista", pythons[newest], wheel, "pyvista>=0.48", "cvista", "meshio", "tqdm")
+    environment = Environment(folder / "pyvista", pythons[newest], f"{wheel}[pyvista,meshio]", "cvista",
+                              "tqdm")
     for backend in ("vtk", "cvista"):
         environment.run(TESTS / "TestPyVista.py", PYVISTA_VTK_BACKEND=backend)
         print(f"{environment.describe()}: PyVista on {backend} passed")
