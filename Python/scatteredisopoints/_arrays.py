@@ -48,6 +48,14 @@ def as_numpy(array: Any) -> np.ndarray:
     return module_of(array, "util.numpy_support").vtk_to_numpy(array)
 
 
+def checksum(array: np.ndarray) -> int:
+    """A hash of the type, the shape and the bytes of an array, equal for two different ones once in 2^61. Takes a few
+    percent of the time of loading them as samples."""
+    rows = 1 << 15  # so that copies fit in a cache
+    parts = (array[i:i + rows].tobytes() for i in range(0, len(array), rows))
+    return hash((array.dtype.str, array.shape, *map(hash, parts)))
+
+
 def readable(name: str, array: Any) -> np.ndarray:
     """Converts an array to a type and layout that the library reads (no zero strides); masked entries
     become NaN. Raises TypeError for types without an order, such as complex numbers or text."""

@@ -13,7 +13,7 @@ from typing import Any, Callable, Iterable, Iterator, Mapping, Optional, Sequenc
 import numpy as np
 
 from ._arrays import (
-    CELL, FLOAT, POINT, are_names, as_numpy, module_of, package_of, positions_of, values_of)
+    CELL, FLOAT, POINT, are_names, as_numpy, checksum, module_of, package_of, positions_of, values_of)
 from ._ghosts import excluded_cells, excluded_points, ghosts_of
 from ._library import Message
 from ._lines_and_grids import lattice
@@ -92,10 +92,19 @@ def leaves(data: Any) -> Iterator[Any]:
 
 def bounds_of(data: Any) -> np.ndarray:
     """The bounds of all points, in the shape (3, 2). Raises NoSamplesError if there are none."""
-    boxes = [leaf.GetBounds() for leaf in leaves(data) if leaf.IsA("vtkDataSet") and leaf.GetNumberOfPoints() > 0]
+    boxes = [_box_of(leaf) for leaf in leaves(data) if leaf.IsA("vtkDataSet") and leaf.GetNumberOfPoints() > 0]
     if not boxes:
         raise NoSamplesError()
-    return np.stack([np.min(boxes, axis=0)[::2], np.max(boxes, axis=0)[1::2]], axis=1)
+    return np.stack([np.min(boxes, axis=0)[:, 0], np.max(boxes, axis=0)[:, 1]], axis=1)
+
+
+def _box_of(leaf: Any) -> np.ndarray:
+    """GetBounds(), which misses changes that VTK has no notice of, in the shape (3, 2)."""
+    if leaf.IsA("vtkImageData"):
+        return np.reshape(leaf.GetBounds(), (3, 2))
+    axes = (map(as_numpy, _coordinates(leaf)) if leaf.IsA("vtkRectilinearGrid") else
+            as_numpy(leaf.GetPoints().GetData()).T)
+    return np.array([(np.fmin.reduce(axis), np.fmax.reduce(axis)) for axis in axes], np.float64)
 
 
 def state_of(data: Any) -> tuple:
@@ -106,11 +115,29 @@ def state_of(data: Any) -> tuple:
         times = [leaf.GetMTime()]
         if leaf.IsA("vtkDataSet"):  # blanking changes flags in place
             marks = (ghosts_of(leaf, association) for association in (POINT, CELL))
-            times += [hash(each.tobytes()) for each in marks if each is not None]
+            times += [checksum(each) for each in marks if each is not None]
         if leaf.IsA("vtkRectilinearGrid"):
             times += [axis.GetMTime() for axis in _coordinates(leaf)]
         state.append((leaf.__this__, *times))
     return tuple(state)
+
+
+def contents_of(data: Any, values: Optional[str]) -> tuple:
+    """A value that changes with state_of(), and when NumPy changes what samples are loaded from, of which VTK has no
+    notice: coordinates and the array of this name. The samples of a composite are copies of all arrays."""
+    is_composite = data.IsA("vtkCompositeDataSet")
+    sums = []
+    for leaf in leaves(data):
+        if not leaf.IsA("vtkDataSet"):
+            continue
+        arrays = list(_coordinates(leaf)) if leaf.IsA("vtkRectilinearGrid") else []
+        if leaf.IsA("vtkPointSet") and leaf.GetPoints() is not None:
+            arrays.append(leaf.GetPoints().GetData())
+        for association in (POINT, CELL):
+            arrays += [array for name, array, _ in named_arrays(leaf.GetAttributes(association))
+                       if is_composite or name == values]
+        sums.append(tuple(checksum(as_numpy(array)) for array in arrays))
+    return (state_of(data), *sums)
 
 
 def samples_with_values(

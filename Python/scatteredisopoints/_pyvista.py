@@ -89,9 +89,8 @@ class ScatteredAccessor:
         Notes
         -----
         The tree is kept unless ``keep_tree=False``: further isosurfaces of the same data take a fraction of
-        the time. After changes of the data set or its scalars that PyVista notices, such as ``mesh["a"] =
-        ...`` or ``mesh.points[0] = ...``, values or samples are loaded again; call ``mesh.Modified()`` after
-        other changes.
+        the time. After changes of points or arrays, also in memory that NumPy's arrays share, values or samples
+        are loaded again.
 
         Examples
         --------
@@ -481,7 +480,7 @@ class ScatteredAccessor:
                     _datasets.samples_with_arrays(data, names, associations))
 
         choice = "without values", is_any, *names, *associations
-        with _kept_samples(data, choice, find, progress, threads, True) as samples:
+        with _kept_samples(data, choice, None, find, progress, threads, True) as samples:
             if scalars is None:
                 uses = samples._maker.uses
                 names = [name for name in samples._arrays or {} if uses.get(name) != _datasets.PEDIGREE_IDS]
@@ -502,7 +501,7 @@ class ScatteredAccessor:
             scalars, associations = _active_scalars(data)
         if not isinstance(scalars, str):
             return contextlib.nullcontext(Samples(data, scalars, threads=threads, progress=progress))
-        return _kept_samples(data, (scalars, *associations),
+        return _kept_samples(data, (scalars, *associations), scalars,
                              lambda: _datasets.samples_with_values(data, scalars, associations), progress, threads,
                              keeps)
 
@@ -566,11 +565,11 @@ def _renew_lock() -> None:
 
 
 @contextlib.contextmanager
-def _kept_samples(data: Any, choice: tuple, find: Callable[[], _datasets.DataSamples], progress: Progress,
-                  threads: Optional[int], keeps: bool) -> Iterator[Samples]:
+def _kept_samples(data: Any, choice: tuple, values: Optional[str], find: Callable[[], _datasets.DataSamples],
+                  progress: Progress, threads: Optional[int], keeps: bool) -> Iterator[Samples]:
     """The samples of a data set that a function finds for a choice of arrays; reuses those of the last call, or
     their tree. No other call gets them meanwhile. Keeps them for the next one if wanted."""
-    id_, key = id(data), (choice, _datasets.state_of(data))
+    id_, key = id(data), (choice, _datasets.contents_of(data, values))
     with _lock:
         kept = _kept.pop(id_, None)
     samples = kept[2] if kept is not None and kept[0]() is data else None

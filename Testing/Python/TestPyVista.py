@@ -10,7 +10,7 @@ from unittest import mock
 
 import numpy as np
 import pyvista as pv
-from scatteredisopoints import Samples, _pyvista, body, contour, gradient, probe, slice_samples
+from scatteredisopoints import Samples, _arrays, _pyvista, body, contour, gradient, probe, slice_samples
 
 
 def cloud(count=20000):
@@ -22,8 +22,8 @@ def cloud(count=20000):
     return data
 
 
-def grid():
-    data = pv.ImageData(dimensions=(30, 31, 32), spacing=(0.07, 0.14, 0.21), origin=(1, 2, 3))
+def grid(dimensions=(30, 31, 32)):
+    data = pv.ImageData(dimensions=dimensions, spacing=(0.07, 0.14, 0.21), origin=(1, 2, 3))
     data["distance"] = np.linalg.norm(data.points - data.center, axis=1)
     data.cell_data["of cells"] = np.linalg.norm(data.cell_centers().points - data.center, axis=1)
     return data
@@ -172,6 +172,36 @@ class Accessor(Warned):
         moved.GetPointData().ShallowCopy(data.GetPointData())
         blocks.SetBlock(0, moved)
         self.assertGreater(blocks.scattered.contour([0.3], "distance").center[2], 5)
+
+    def test_changes_in_memory_are_noticed(self):
+        """VTK has no notice of what NumPy writes into shared memory."""
+        image = grid((10, 11, 12))
+        curved = image.cast_to_structured_grid()
+        for data, name in ((cloud(2000), "distance"), (pv.MultiBlock([cloud(2000), cloud(10)]), "distance"),
+                           (image, "of cells"), (curved.copy(), "of cells"), (pv.MultiBlock([curved]), "of cells"),
+                           (image.cast_to_rectilinear_grid(), "distance")):
+            block = data[0] if isinstance(data, pv.MultiBlock) else data
+            memory = [np.asarray(block[name])]
+            if not isinstance(block, pv.ImageData):
+                memory.append(_arrays.as_numpy(block.GetXCoordinates() if isinstance(block, pv.RectilinearGrid) else
+                                               block.GetPoints().GetData()))
+            where = np.asarray(block.center) + np.random.default_rng(2).uniform(-0.1, 0.1, (20, 3))
+            level, association = np.median(memory[0]), "cell" if name == "of cells" else "point"
+            for call in (lambda each: each.scattered.contour([level], name),
+                         lambda each: each.scattered.contour([level], name, triangles=False),
+                         lambda each: each.scattered.slice("x", where[0], scalars=name),
+                         lambda each: each.scattered.body(name, preference=association),
+                         lambda each: each.scattered.probe(where, name),
+                         lambda each: each.scattered.to_grid(4, scalars=name)):
+                for array in memory:
+                    call(data)
+                    before = call(data)
+                    array *= 1.0 + 2.0**-5
+                    found, expected = call(data), call(data.copy())
+                    np.testing.assert_array_equal(found.points, expected.points)
+                    np.testing.assert_array_equal(found[name], expected[name])
+                    self.assertFalse(found.points.tobytes() == before.points.tobytes()
+                                     and found[name].tobytes() == before[name].tobytes())
 
     def test_calls_meanwhile(self):
         """A call on another array, as of another thread, leaves a call its array."""
