@@ -14,7 +14,7 @@ from typing import Any, Iterable, Iterator, Mapping, Optional, Union
 import numpy as np
 
 from . import _library
-from ._arrays import checked_column, package_of, readable
+from ._arrays import checked_column, package_of, positions_of, readable
 from ._measures import Measures, Piece, measure
 from ._options import number_of, thread_count
 from ._polydata import PolyDataMaker
@@ -23,7 +23,7 @@ from ._progress import Progress, shown_progress
 
 class Isosurface:
     """Points on isosurfaces, or triangles between them, as :func:`contour` makes them: the constructor is private.
-    Arrays are views that keep their memory alive.
+    Arrays are read-only views that keep their memory alive.
 
     Examples
     --------
@@ -34,13 +34,6 @@ class Isosurface:
     >>> sphere.triangles.shape[1], sphere.normals.shape == sphere.points.shape, list(sphere.arrays)
     (3, True, ['values', 'Normals'])
     """
-
-    points: np.ndarray
-    """Positions in the unit of the input: shape (n, 3), of float32 or float64."""
-
-    triangles: Optional[np.ndarray]
-    """Indices of points, shape (m, 3), counterclockwise seen from lower values, or from higher ones with
-    gradient_direction="ascent"; None of points."""
 
     arrays: dict[str, np.ndarray]
     """All numeric arrays of the points by name: shape (n,) or (n, components)."""
@@ -66,11 +59,12 @@ class Isosurface:
         isovalues: Optional[np.ndarray] = None,
         is_capped: bool = False,
     ):
-        self.points = points
-        self.triangles = triangles
+        self._points = points
+        self._triangles = triangles
         self.arrays = arrays or {}
         self.splat_shapes = splat_shapes or {}
         self.cell_arrays = cell_arrays or {}
+        self._lock_arrays()
         self._make_polydata = make_polydata
         self._polydata: Any = None
         self._threads = threads
@@ -81,6 +75,40 @@ class Isosurface:
 
     def __getstate__(self) -> dict[str, Any]:
         return {**vars(self), "_polydata": None}  # VTK's objects cannot be pickled
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        vars(self).update(state)
+        self._lock_arrays()
+
+    def _lock_arrays(self) -> None:
+        """Makes all arrays read-only, because areas and volumes are computed once."""
+        self._points = _locked(self._points)
+        self._triangles = None if self._triangles is None else _locked(self._triangles)
+        for name in ("arrays", "splat_shapes", "cell_arrays"):
+            setattr(self, name, {key: _locked(array) for key, array in getattr(self, name).items()})
+
+    @property
+    def points(self) -> np.ndarray:
+        """Positions in the unit of the input: shape (n, 3), of float32 or float64. Others can be assigned, which clears
+        what they determine: area, volume, pieces, polydata, normals, radii and splats. All other arrays stay."""
+        return self._points
+
+    @points.setter
+    def points(self, positions: Any) -> None:
+        points = positions_of(positions, "points")
+        if len(points) != len(self):
+            raise ValueError(f"points have the shape {points.shape}, not {self._points.shape}: give a position for each")
+        self._points = _locked(points.copy())
+        self._measures = self._polydata = None
+        computed = [self._make_polydata.normals, "Radius" if self.splat_shapes else None]
+        self.arrays = {name: array for name, array in self.arrays.items() if name not in computed}
+        self.splat_shapes = {}
+
+    @property
+    def triangles(self) -> Optional[np.ndarray]:
+        """Indices of points, shape (m, 3), counterclockwise seen from lower values, or from higher ones with
+        gradient_direction="ascent"; None of points."""
+        return self._triangles
 
     @property
     def are_triangles(self) -> bool:
@@ -100,7 +128,7 @@ class Isosurface:
 
     @property
     def polydata(self) -> Any:
-        """Points, vertices or triangles, and all arrays, whose memory it shares.
+        """Points, vertices or triangles, and all arrays: a copy, made on first use.
 
         A pyvista.PolyData if the samples were an object of PyVista, otherwise a vtkPolyData. Raises
         ImportError if neither VTK nor PyVista is installed.
@@ -109,8 +137,12 @@ class Isosurface:
             self._polydata = self._make_polydata(self)
         return self._polydata
 
+    def _into_polydata(self) -> Any:
+        """The same without a copy, for callers that keep no isosurface."""
+        return self._make_polydata(self, shares_memory=True)
+
     def to_pyvista(self) -> Any:
-        """A pyvista.PolyData that shares the arrays' memory. Raises ImportError if PyVista is not installed."""
+        """:attr:`polydata` as a pyvista.PolyData. Raises ImportError if PyVista is not installed."""
         pyvista = _imported("pyvista")
         package, data = package_of(pyvista.PolyData()), self.polydata
         if package_of(data) != package:  # PyVista has cvista, while the data are of vtkmodules
@@ -122,7 +154,7 @@ class Isosurface:
         installed, ValueError for points."""
         if self.triangles is None:
             raise ValueError("Points are no mesh: extract triangles.")
-        return _imported("trimesh").Trimesh(self.points, self.triangles, process=False)
+        return _imported("trimesh").Trimesh(self.points.copy(), self.triangles.copy(), process=False)
 
     def save(self, path: Union[str, os.PathLike[str]]) -> None:
         """Writes a file, with all arrays of points that its format can hold. If this fails, an earlier one stays.
@@ -148,7 +180,7 @@ class Isosurface:
     @property
     def region_ids(self) -> np.ndarray:
         """The index in :attr:`pieces` of each triangle's piece, shape (m,): for an array RegionId, as VTK calls it."""
-        return self._measured().region_ids
+        return _locked(self._measured().region_ids)
 
     @property
     def area(self) -> Union[float, np.ndarray]:
@@ -244,6 +276,13 @@ class Isosurface:
         if self.triangles is not None:
             shown += f", {len(self.triangles)} triangles"
         return f"<Isosurface: {shown}; arrays: {', '.join(self.arrays) or 'none'}>"
+
+
+def _locked(array: np.ndarray) -> np.ndarray:
+    """A read-only view."""
+    view = array.view()
+    view.flags.writeable = False
+    return view
 
 
 def _imported(package: str) -> Any:

@@ -118,7 +118,7 @@ class ScatteredAccessor:
             else:
                 isosurfaces = levels_of("isosurfaces", isosurfaces)
             return samples._contour(isosurfaces, triangles, options.pop("arrays", None), threads, progress_bar, options,
-                                    stacklevel=3).polydata
+                                    stacklevel=3)._into_polydata()
 
     def body(
         self,
@@ -145,7 +145,7 @@ class ScatteredAccessor:
         """
         with self._samples_with(scalars, preference, progress_bar, threads, needs_arrays=False) as (samples, arrays):
             return body_with_warnings(samples, None if scalars is None else arrays, threads, progress_bar, options,
-                                      stacklevel=3).polydata
+                                      stacklevel=3)._into_polydata()
 
     def splats(self, scale: float = 1.0, *, threads: Optional[int] = None) -> pv.PolyData:
         """Turn isopoints into polygons that show them as a closed surface.
@@ -380,7 +380,7 @@ class ScatteredAccessor:
         with self._samples_with(scalars, preference, progress, threads, needs_arrays=False) as (samples, arrays):
             result = slice_with_warnings(
                 samples, normal, origin, None if scalars is None else arrays, function, offsets, interpolation, threads,
-                progress, options, stacklevel=4).polydata
+                progress, options, stacklevel=4)._into_polydata()
         if not (switch("contour", contour) and result.n_cells):
             return result
         try:

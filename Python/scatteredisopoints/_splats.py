@@ -69,8 +69,9 @@ def polygons_of(
         points, arrays={**arrays, "Normals": normals.astype(np.float32), POINT_IDS: np.arange(len(points))},
         splat_shapes={"SplatAxis": axes.astype(np.float32), "SplatPolygon": polygons}, make_polydata=maker)
     splats = isopoints._splats(scale, threads, **callbacks)
-    _add_cell_arrays(splats, data, cell_of_point)
-    return splats.polydata, problem
+    polygons = splats._into_polydata()
+    _add_cell_arrays(polygons, splats, data, cell_of_point)
+    return polygons, problem
 
 
 def _is_kept(array: Any, normals: Any) -> bool:
@@ -79,13 +80,13 @@ def _is_kept(array: Any, normals: Any) -> bool:
         "Normals", "SplatAxis", "SplatPolygon", POINT_IDS, CELL_IDS)
 
 
-def _add_cell_arrays(splats: Isosurface, data: Any, cell_of_point: np.ndarray) -> None:
-    """Gives triangles the arrays of their points' cells, if all points have cells."""
+def _add_cell_arrays(polygons: Any, splats: Isosurface, data: Any, cell_of_point: np.ndarray) -> None:
+    """Gives the polygons of splats the arrays of their points' cells, if all points have cells."""
     assert splats.triangles is not None
     cells = cell_of_point[splats.arrays[POINT_IDS][splats.triangles[:, 0]]]
     if (cells < 0).any():
         return
-    attributes, package = splats.polydata.GetCellData(), package_of(data)
+    attributes, package = polygons.GetCellData(), package_of(data)
     for name, array, use in named_arrays(data.GetCellData()):
         if _is_kept(array, data.GetCellData().GetNormals()):
             index = attributes.AddArray(as_vtk(package, name, as_numpy(array)[cells]))

@@ -47,7 +47,7 @@ class _Contour(ContourValues, ScatteredAlgorithm):
             return self._contour_blocks(data, output)
         self._kept = {0: self._kept[0]} if 0 in self._kept else {}
         extracted = self._contour_one(data, 0, (0.0, 1.0))
-        output.ShallowCopy(extracted.isosurface.polydata)
+        output.ShallowCopy(extracted.isosurface._into_polydata())
         return extracted.messages
 
     def _contour_blocks(self, data: Any, output: Any) -> list[_library.Message]:
@@ -59,7 +59,7 @@ class _Contour(ContourValues, ScatteredAlgorithm):
         def contour(block: Any, number: int) -> Optional[vtkPolyData]:
             try:
                 found[number] = self._contour_one(block, number, (number / count, (number + 1) / count))
-                return found[number].isosurface.polydata
+                return found[number].isosurface._into_polydata()
             except _datasets.NoSamplesError as error:
                 lacking.append(error)
                 return None

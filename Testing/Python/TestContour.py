@@ -279,13 +279,19 @@ class ContourTest(unittest.TestCase):
         self.assertEqual(result.points.tobytes(), kept.points.tobytes())
         self.assertEqual(data.GetPointData().GetNumberOfArrays(), 0)
 
-    def test_memory_is_shared(self):
-        result = contour(*samples(), 0.3)
-        points = result.points
-        points[0] = 7.0
-        self.assertEqual(result.polydata.GetPoint(0), (7.0, 7.0, 7.0))
-        del result  # the memory lives on
-        self.assertEqual(points[0].tolist(), [7.0, 7.0, 7.0])
+    def test_data_are_copies(self):
+        """VTK writes into read-only memory."""
+        result = contour(*samples(), 0.3, triangles=True)
+        area, points, data = result.area, result.points.copy(), result.polydata
+        self.assertIs(data, result.polydata)
+        for array in (data.GetPoints().GetData(), data.GetPointData().GetArray("values")):
+            vtk_to_numpy(array)[:] = 7.0
+        np.testing.assert_array_equal(result.points, points)
+        self.assertEqual(set(result.arrays["values"]), {0.3})
+        result.points = 2 * points
+        self.assertAlmostEqual(result.area / area, 4)
+        self.assertEqual(result.polydata.GetPoint(0), tuple(2 * points[0]))
+        self.assertIsNone(result.polydata.GetPointData().GetNormals())
 
     def test_data_sets(self):
         positions, values = samples()

@@ -276,12 +276,17 @@ class Accessor(Warned):
                 source.scattered.contour([0.3], *arguments, **options)
 
     def test_data_of_contour(self):
-        surface = contour(cloud(), "distance", 0.3)
+        surface = contour(cloud(), "distance", 0.3, triangles=True)
         self.assertIs(type(surface.polydata), pv.PolyData)
-        points = surface.points
-        points[0] = 7.0
-        self.assertEqual(surface.polydata.points[0].tolist(), [7.0, 7.0, 7.0])
-        self.assertGreater(surface.splats().polydata.n_cells, 1000)
+        self.assertGreater(contour(cloud(), "distance", 0.3).splats().polydata.n_cells, 1000)
+        points = surface.points.copy()
+        for data in (surface.polydata, surface.to_pyvista(), cloud().scattered.contour([0.3])):
+            before = data.area, data["distance"].max()
+            data.points *= 2
+            data["distance"] += 1
+            self.assertEqual((data.area, data["distance"].max()), (4 * before[0], before[1] + 1))
+        np.testing.assert_array_equal(surface.points, points)
+        self.assertEqual(set(surface.arrays["distance"]), {0.3})
 
     def test_surfaces_of_arrays_become_data_of_pyvista(self):
         data = cloud(3000)
