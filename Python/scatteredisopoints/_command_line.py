@@ -21,7 +21,7 @@ from ._arrays import as_numpy
 from ._datasets import DataSamples
 from ._isosurface import Isosurface
 from ._lines_and_grids import lattice, line_between
-from ._option_types import OPTION_TYPES
+from ._option_types import BodyOptions, ContourOptions, SliceOptions
 from ._options import CONSTANTS, INTERPOLATIONS, check_names
 from ._paths import PYTHON_PLUGIN
 from ._polydata import PolyDataMaker
@@ -31,6 +31,8 @@ from ._samples import Samples
 from ._writing import file_to_write, write_csv, writer_for
 
 PROGRAM = "python -m scatteredisopoints"
+OPTIONS = {"contour": ContourOptions.__annotations__, "body": BodyOptions.__annotations__,
+           "slice": SliceOptions.__annotations__}
 FILES = """
 FILE: CSV and other text (x, y, z and more columns between commas, semicolons, tabs or blanks; - is stdin), NPY (shape
 (n, 4): x, y, z, value), NPZ, PLY, or what PyVista or meshio reads. OUT: .ply, .stl, .obj, .npz, .csv; with PyVista
@@ -62,7 +64,7 @@ def loaded(samples: DataSamples, given: argparse.Namespace, report: Progress) ->
 def options_of(given: argparse.Namespace) -> dict[str, Any]:
     """Options by name, without other parameters. Raises TypeError for an unknown one, ValueError for one twice."""
     options = dict(given.option)
-    check_names(options, OPTION_TYPES)
+    check_names(options, OPTIONS[given.command])
     if len(options) < len(given.option):
         raise ValueError(f"an option is given twice: {', '.join(name for name, _ in given.option)}")
     return options

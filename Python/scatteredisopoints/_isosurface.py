@@ -175,12 +175,12 @@ class Isosurface:
     def pieces(self) -> tuple[Piece, ...]:
         """The connected components of the triangles, largest area first: isovalue, area, and volume. Raises ValueError
         for points."""
-        return self._measured().pieces
+        return self._measured("pieces").pieces
 
     @property
     def region_ids(self) -> np.ndarray:
         """The index in :attr:`pieces` of each triangle's piece, shape (m,): for an array RegionId, as VTK calls it."""
-        return _locked(self._measured().region_ids)
+        return _locked(self._measured("pieces").region_ids)
 
     @property
     def area(self) -> Union[float, np.ndarray]:
@@ -195,7 +195,7 @@ class Isosurface:
         of a distance, unless gradient_direction is "ascent". NaN, with a warning, unless each edge has exactly two
         triangles."""
         volumes = self._sums("volume")
-        if any(math.isnan(piece.volume) for piece in self.pieces):
+        if any(math.isnan(piece.volume) for piece in self._measured("volume").pieces):
             warnings.warn("Not every edge has exactly two triangles, so there is no volume: extract the surface with"
                           " capping=True.", RuntimeWarning, stacklevel=2)
         elif not np.isfinite(volumes).all():
@@ -203,9 +203,9 @@ class Isosurface:
                           stacklevel=2)
         return volumes
 
-    def _measured(self) -> Measures:
+    def _measured(self, name: str) -> Measures:
         if self.triangles is None:
-            raise ValueError("Points have no area: extract triangles.")
+            raise ValueError(f"Points have no {name}: extract triangles.")
         if self._measures is None:
             isovalues = np.full(len(self), self._levels[0]) if self._isovalues is None else self._isovalues
             self._measures = measure(self.points, self.triangles, isovalues, not self._is_capped)
@@ -214,7 +214,7 @@ class Isosurface:
     def _sums(self, name: str) -> Union[float, np.ndarray]:
         """The sums over the pieces of each isovalue."""
         sums = np.zeros(len(self._levels))
-        for piece in self.pieces:
+        for piece in self._measured(name).pieces:
             sums[self._levels.index(piece.isovalue) if len(sums) > 1 else 0] += getattr(piece, name)
         return float(sums[0]) if len(sums) == 1 else sums
 

@@ -22,8 +22,8 @@ from ._bodies import body_with_warnings
 from ._cuts import three_numbers
 from ._derivatives import DERIVATIVES, names_of_derivatives
 from ._lines_and_grids import box_of, grid_in, line_between
-from ._option_types import BodyOptions, ContourOptions, Unpack
-from ._options import check_names, named, switch
+from ._option_types import BodyOptions, ContourOptions, SliceOptions, Unpack
+from ._options import check_names, named, parameters_of, switch, unknown_option
 from ._polydata import as_vtk
 from ._progress import Progress, shown_progress
 from ._samples import Samples
@@ -102,8 +102,11 @@ class ScatteredAccessor:
         >>> surface.is_manifold
         True
         """
-        for name in options.keys() & _NAMES.keys():
-            raise TypeError(f"unknown option {name}: did you mean {_NAMES[name]}?")
+        for name in options:
+            if name in _NAMES:
+                raise TypeError(f"unknown option {name}: did you mean {_NAMES[name]}?")
+            if name not in ("arrays", *ContourOptions.__annotations__):
+                raise unknown_option(name, triangles, parameters_of(self.contour))
         keeps = options.get("keep_tree", True)
         with self._loaded(scalars, preference, progress_bar, threads, keeps) as samples:
             if isinstance(isosurfaces, (int, np.integer)) and not isinstance(isosurfaces, bool):
@@ -143,6 +146,7 @@ class ScatteredAccessor:
         pyvista.PolyData
             Closed triangles between samples, with their arrays.
         """
+        check_names(options, BodyOptions.__annotations__, parameters_of(self.body))
         with self._samples_with(scalars, preference, progress_bar, threads, needs_arrays=False) as (samples, arrays):
             return body_with_warnings(samples, None if scalars is None else arrays, threads, progress_bar, options,
                                       stacklevel=3)._into_polydata()
@@ -238,7 +242,8 @@ class ScatteredAccessor:
             raise ValueError(f"resolution cannot be {resolution!r}: it is a whole number, 1 or more")
         points, distances = line_between(begin, end, operator.index(resolution))
         line = pv.PolyData(points, lines=[len(points), *range(len(points))])
-        return self._probe(line, scalars, **_options_of_probe(options), computed={"Distance": distances})
+        options = _options_of_probe(options, self.sample_over_line)
+        return self._probe(line, scalars, **options, computed={"Distance": distances})
 
     def to_grid(
         self,
@@ -268,7 +273,8 @@ class ScatteredAccessor:
             The grid, with the arrays.
         """
         box = box_of(_datasets.bounds_of(self._checked()).ravel() if bounds is None else bounds)
-        return self._probe(pv.ImageData(**grid_in(box, dimensions, spacing)), scalars, **_options_of_probe(options))
+        options = _options_of_probe(options, self.to_grid)
+        return self._probe(pv.ImageData(**grid_in(box, dimensions, spacing)), scalars, **options)
 
     def slice(
         self,
@@ -311,6 +317,7 @@ class ScatteredAccessor:
         """
         if plane is not None:
             raise TypeError("plane is not supported: give its normal and its origin")
+        _check_slice_options(options, self.slice)
         return self._slice(normal, origin, None, contour, progress_bar, options)
 
     def slice_orthogonal(
@@ -337,6 +344,7 @@ class ScatteredAccessor:
         pyvista.MultiBlock
             The slices ``YZ``, ``XZ`` and ``XY``.
         """
+        _check_slice_options(options, self.slice_orthogonal)
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             slices = {name: self._slice(axis, None if at is None else 3 * [at], None, contour, progress_bar, options)
@@ -369,6 +377,7 @@ class ScatteredAccessor:
         """
         if implicit_function is None:
             raise TypeError("implicit_function is missing")
+        _check_slice_options(options, self.slice_implicit)
         return self._slice(None, None, implicit_function, contour, progress_bar, options)
 
     def _slice(self, normal: Any, origin: Any, function: Any, contour: bool, progress: Progress,
@@ -517,11 +526,17 @@ def _associations(preference: str) -> tuple[int, ...]:
     return named("preference", preference, {"point": (POINT, CELL), "cell": (CELL, POINT)})
 
 
-def _options_of_probe(given: Mapping[str, Any]) -> dict[str, Any]:
+def _check_slice_options(given: Mapping[str, Any], method: Callable[..., Any]) -> None:
+    """Raises TypeError for an option that slices do not have."""
+    names = *SliceOptions.__annotations__, "interpolation", "offsets", "preference", "scalars", "threads"
+    check_names(given, names, parameters_of(method))
+
+
+def _options_of_probe(given: Mapping[str, Any], method: Callable[..., Any]) -> dict[str, Any]:
     """All of ScatteredAccessor.probe(), with defaults. Raises TypeError if it has no such one."""
     parameters = inspect.signature(ScatteredAccessor.probe).parameters.values()
     options = {each.name: each.default for each in parameters if each.kind is each.KEYWORD_ONLY}
-    check_names(given, options)
+    check_names(given, options, parameters_of(method))
     return {**options, **given}
 
 

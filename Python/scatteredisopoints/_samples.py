@@ -207,8 +207,8 @@ class Samples:
         self._loaded_key = None
         positions = positions_of(self._current("positions", self._positions))
         masks = [each for each in left_out if each is not None]
-        name = f"negated {self._name or 'values'}" if key == -1 else self._name
-        _library.run(_library.set_value_name, self._extractor, name.encode(errors="replace"))
+        _library.run(_library.set_value_name, self._extractor, self._name.encode(errors="replace"))
+        _library.run(_library.set_values_negated, self._extractor, int(key == -1))
         _library.run_with(
             _library.Callbacks(**callbacks), self._extractor, _library.set_samples, positions, numbers,
             np.any(masks, axis=0).view(np.uint8) if masks else None)

@@ -28,7 +28,7 @@ class NoNormalsError(ValueError):
     """Points have no normals."""
 
     def __init__(self):
-        super().__init__("The points have no normals: extract them with ComputeNormals.")
+        super().__init__("The points have no normals: extract them with compute_normals.")
 
 
 def polygons_of(
@@ -128,7 +128,7 @@ def _take_shapes(
     axis = _numbers(shapes.GetArray("SplatAxis"), count, 3)
     if polygon is None:
         return ('The array "SplatPolygon" has not 40 components for each vertex cell: splats are octagons of the'
-                " points' radii. Use the array as vtkScatteredIsopointFilter writes it."
+                " points' radii. Keep the array as it was extracted."
                 if shapes.HasArray("SplatPolygon") else "")
     if axis is None:
         return ('The array "SplatPolygon" has no array "SplatAxis" of three components beside it: splats are'

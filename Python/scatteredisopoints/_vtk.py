@@ -19,7 +19,7 @@ from ._options import CONSTANTS, option_names, property_name
 from ._samples import Extracted
 from ._splats import NoNormalsError, polygons_of
 from ._vtk_algorithm import (
-    Algorithm, ContourValues, ScatteredAlgorithm, fill, with_counts, with_properties)
+    Algorithm, ContourValues, ScatteredAlgorithm, fill, in_properties, with_counts, with_properties)
 from ._vtk_body import vtkScatteredBodyFilter as vtkScatteredBodyFilter
 from ._vtk_gradient import vtkScatteredGradientFilter as vtkScatteredGradientFilter
 from ._vtk_probe import vtkScatteredGridFilter as vtkScatteredGridFilter
@@ -165,7 +165,7 @@ class vtkIsopointSplatPolygons(Algorithm):
         else:
             self._make_blocks(data, output, problems)
         for problem in sorted(problems):
-            self._report("WarningEvent", problem)
+            self._report("WarningEvent", in_properties(problem))
 
     def _make_blocks(self, data: Any, output: Any, problems: set[str]) -> None:
         """Blocks without normals have no polygons, which is an error only if no block has normals."""
