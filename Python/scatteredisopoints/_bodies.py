@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Mapping, Optional
 import numpy as np
 
 from . import _library
+from ._arrays import without_text
 from ._isosurface import Isosurface
 from ._option_types import BodyOptions
 from ._options import OF_BODIES, check_names, make_options
@@ -41,7 +42,8 @@ def body_with_warnings(samples: Samples, arrays: Any, threads: Optional[int], pr
                        options: Mapping[str, Any], stacklevel: int) -> Isosurface:
     """Samples.body()."""
     check_names(options, OPTIONS, OF_BODIES)
+    arrays, of_text = without_text(arrays)
     with shown_progress(progress, "Finding the body") as report:
         made, messages = compute_body(samples, options, arrays, threads, report)
-    warn_of(samples, made, messages, arrays is None, stacklevel + 1)
+    warn_of(samples, made, messages, arrays is None, of_text, stacklevel + 1)
     return made

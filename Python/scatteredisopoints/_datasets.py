@@ -13,7 +13,8 @@ from typing import Any, Callable, Iterable, Iterator, Mapping, Optional, Sequenc
 import numpy as np
 
 from ._arrays import (
-    CELL, FLOAT, POINT, are_names, as_numpy, checksum, module_of, package_of, positions_of, values_of)
+    CELL, FLOAT, POINT, are_names, as_numpy, checksum, module_of, package_of, positions_of, readable, shape_error,
+    values_of)
 from ._ghosts import excluded_cells, excluded_points, ghosts_of
 from ._library import Message
 from ._lines_and_grids import lattice
@@ -35,6 +36,7 @@ class DataSamples:
     maker: PolyDataMaker
     without_array: int = 0  # points or cells of blocks without the array
     differing: tuple[str, ...] = ()  # arrays that not all blocks have alike
+    of_text: tuple[str, ...] = ()  # arrays without numbers
     masked: Optional[np.ndarray] = None  # bool: which values are masked; None without any
     name: str = ""  # of the values, for messages
     association: int = POINT  # of the first block
@@ -245,7 +247,8 @@ def _gathered(data: Any, block_of: Callable[[Any], Optional[DataSamples]], descr
         block = block_of(leaf)
         if block is not None:
             block.parts = [Part(number, block.association, leaf.GetNumberOfElements(block.association))]
-            block.arrays = block.arrays if with_arrays else {}
+            if not with_arrays:
+                block.arrays, block.of_text = {}, ()
             blocks.append(block)
         else:
             without_array += size
@@ -308,6 +311,11 @@ def describe_differing(names: Iterable[str]) -> str:
     return f"Left out are {_quoted(names)}: not all blocks have these arrays with the same type and components."
 
 
+def describe_text(names: Iterable[str]) -> str:
+    """A message about arrays without numbers."""
+    return f"Left out are {_quoted(names)}: they hold no numbers."
+
+
 def _quoted(names: Iterable[str]) -> str:
     return ", ".join(f'"{name}"' for name in names)
 
@@ -353,7 +361,14 @@ def _block(leaf: Any, association: int, scalars: Any, are_values: bool = True) -
                 uses[key] = use
     maker = PolyDataMaker(scalars=name or None, uses=uses)
     return DataSamples(positions, scalars if are_values else None, excluded, arrays, maker, association=association,
+                       of_text=_names_of_text(leaf.GetAttributes(association)),
                        name="" if scalars is None or isinstance(scalars, np.ndarray) else name)
+
+
+def _names_of_text(attributes: Any) -> tuple[str, ...]:
+    """The names of arrays without numbers."""
+    arrays = map(attributes.GetAbstractArray, range(attributes.GetNumberOfArrays()))
+    return tuple(array.GetName() for array in arrays if array.GetName() and not array.IsA("vtkDataArray"))
 
 
 def named_arrays(attributes: Any) -> Iterator[tuple[str, Any, int]]:
@@ -383,18 +398,24 @@ def _joined(blocks: list[DataSamples]) -> DataSamples:
     return DataSamples(np.concatenate(positions), np.concatenate(values) if values else None,
                        np.concatenate(excluded), arrays,
                        PolyDataMaker(scalars=name or None, uses=uses), differing=tuple(differing), name=name,
+                       of_text=tuple(dict.fromkeys(each for block in blocks for each in block.of_text)),
                        are_float=all(each.dtype == np.float32 for each in values),
                        parts=[part for block in blocks for part in block.parts])
 
 
-def place_positions(places: Any) -> np.ndarray:
-    """Places with shape (n, 3), those of a data set at its points."""
+def place_positions(places: Any) -> tuple[np.ndarray, tuple[int, ...]]:
+    """Places with shape (n, 3), those of a data set at its points; and the shape of places without their last axis."""
     data = data_object(places)
     if data is not None and not data.IsA("vtkDataSet"):
         remedy = ("pass its blocks one by one, or combine them first" if data.IsA("vtkCompositeDataSet") else
                   "pass positions, shape (n, 3)")
         raise TypeError(f"A {data.GetClassName()} has no points of its own: {remedy}.")
-    return positions_of(places if data is None else as_numpy(point_positions(data)), "places")
+    numbers = readable("places", places if data is None else as_numpy(point_positions(data)))
+    if numbers.shape == (0,):
+        numbers = numbers.reshape(0, 3)
+    if numbers.shape[-1:] == (3,):
+        return positions_of(numbers.reshape(-1, 3), "places"), numbers.shape[:-1]
+    raise shape_error("places", numbers.shape, "(..., 3)")
 
 
 def point_positions(leaf: Any) -> Any:

@@ -14,7 +14,7 @@ from typing import Any, Iterable, Iterator, Mapping, Optional, Union
 import numpy as np
 
 from . import _library
-from ._arrays import checked_column, package_of, positions_of, readable
+from ._arrays import checked_tensors, package_of, positions_of, readable
 from ._measures import Measures, Piece, measure
 from ._options import number_of, thread_count
 from ._polydata import PolyDataMaker
@@ -36,7 +36,7 @@ class Isosurface:
     """
 
     arrays: dict[str, np.ndarray]
-    """All numeric arrays of the points by name: shape (n,) or (n, components)."""
+    """All numeric arrays of the points by name: shape (n,) or (n, ...), as those of the samples."""
 
     splat_shapes: Mapping[str, np.ndarray]
     """What splats look like: SplatAxis, shape (n, 3), and SplatPolygon, (n, 40), five numbers for each of eight
@@ -97,7 +97,7 @@ class Isosurface:
     def points(self, positions: Any) -> None:
         points = positions_of(positions, "points")
         if len(points) != len(self):
-            raise ValueError(f"points have the shape {points.shape}, not {self._points.shape}: give a position for each")
+            raise ValueError(f"points have the shape {points.shape}, not {self._points.shape}: give one for each")
         self._points = _locked(points.copy())
         self._measures = self._polydata = None
         computed = [self._make_polydata.normals, "Radius" if self.splat_shapes else None]
@@ -261,7 +261,7 @@ class Isosurface:
             _library.Callbacks(**callbacks), surface, _library.make_splat_mesh, scale)
         point_of_vertex = _library.view(surface, _library.SPLAT_VERTEX_POINTS)
         is_canceled = callbacks.get("is_canceled")
-        arrays = {name: _at_vertices(surface, checked_column(name, array, len(self)), point_of_vertex, is_canceled)
+        arrays = {name: _at_vertices(surface, checked_tensors(name, array, len(self)), point_of_vertex, is_canceled)
                   for name, array in self.arrays.items()}
         arrays["Normals"] = _library.view(surface, _library.SPLAT_VERTEX_NORMALS)
         return Isosurface(
@@ -297,8 +297,8 @@ def _at_vertices(surface: _library.Surface, array: np.ndarray, point_of_vertex, 
     if array.dtype.kind != "f":
         return array[point_of_vertex]
     result = np.empty((len(point_of_vertex), *array.shape[1:]), array.dtype)
-    _library.run_with(_library.Callbacks(is_canceled=is_canceled), surface,
-                      _library.average_at_splat_vertices, array, result, result.nbytes)
+    _library.run_with(_library.Callbacks(is_canceled=is_canceled), surface, _library.average_at_splat_vertices,
+                      array.reshape(len(array), math.prod(array.shape[1:])), result, result.nbytes)
     return result
 
 

@@ -45,6 +45,10 @@ class ScatteredAccessor:
     def __init__(self, dataset: Any):
         self._dataset = dataset
 
+    def __repr__(self) -> str:
+        methods = [name for name in dir(self) if not name.startswith("_")]
+        return f"<scattered of a {type(self._dataset).__name__}: {', '.join(methods)}>"
+
     def contour(
         self,
         isosurfaces: Union[int, Sequence[float]] = 10,
@@ -193,7 +197,7 @@ class ScatteredAccessor:
         Parameters
         ----------
         where : pyvista.DataSet | array_like[float]
-            Points, or a data set, at its points.
+            Points, or one, or a data set, at its points.
         scalars : str | sequence[str] | array_like[float], optional
             Names of arrays of points or cells, or numbers for each of them. By default all arrays of
             ``preference``, or else of the others.
@@ -458,15 +462,17 @@ class ScatteredAccessor:
                computed: Optional[Mapping[str, np.ndarray]] = None) -> Any:
         """probe(), with further arrays that are computed."""
         data = _datasets.data_object(where)
-        places = pv.PolyData(_datasets.place_positions(where).copy()) if data is None else data
+        places = pv.PolyData(_datasets.place_positions(where)[0].copy()) if data is None else data
         with self._samples_with(scalars, preference, progress_bar, threads) as (samples, arrays):
             found = samples._probe(places, arrays, gradient, method, outside, threads, progress_bar, stacklevel=4)
-            differing = samples._differing if scalars is None else ()
+            differing, of_text = (samples._differing, samples._of_text) if scalars is None else ((), ())
         values, gradients = found if gradient else (found, {})
         computed = {**{name + "_gradient": array for name, array in gradients.items()}, **(computed or {})}
         _warn_of_replaced(computed, values, stacklevel=4)
         if differing:
             warnings.warn(_datasets.describe_differing(differing), RuntimeWarning, stacklevel=3)
+        if of_text:
+            warnings.warn(_datasets.describe_text(of_text), RuntimeWarning, stacklevel=3)
         result = pv.wrap(places).copy(deep=False)
         _add_arrays(result.point_data, {**values, **computed})
         return result

@@ -159,8 +159,9 @@ class ContourTest(unittest.TestCase):
         self.assertEqual(again.pieces, cube.pieces)
         ball, = contour(positions, np.minimum(distance, far + 0.06), 0.2, triangles=True, minimum_piece_size=0.9).pieces
         self.assertLess(ball.volume, 0)  # without caps a size counts, but no sign
-        with self.assertRaisesRegex(ValueError, "Points have no area: extract triangles"):
-            contour(positions, distance, 0.2).pieces
+        for name, text in (("area", "area"), ("volume", "volume"), ("pieces", "pieces"), ("region_ids", "pieces")):
+            with self.assertRaisesRegex(ValueError, f"Points have no {text}: extract triangles"):
+                getattr(contour(positions, distance, 0.2), name)
         with self.assertRaisesRegex(ValueError, "minimum_piece_size is 2, which is out of range"):
             contour(positions, distance, 0.2, triangles=True, minimum_piece_size=2.0)
 
@@ -244,14 +245,14 @@ class ContourTest(unittest.TestCase):
         np.testing.assert_array_equal(kept.contour(0.3).points, before.points)
         self.assertGreater(contour(cloud_of(positions, distance), None, 0.3, gradient_direction="ascent",
                                    triangles=True).volume, 0)
-        with self.assertWarnsRegex(RuntimeWarning, 'No isosurface at -3: "negated values" is from .* to -'):
+        with self.assertWarnsRegex(RuntimeWarning, "No isosurface at 3: the array is from 0.0.* to 1.* down to 0.0"):
             kept.contour(3.0, gradient_direction="ascent")
         with self.assertWarnsRegex(RuntimeWarning, "No isosurface at 3: the array is from"):
             kept.contour(3.0)
-        with self.assertWarnsRegex(RuntimeWarning, 'No isosurface at -3: "negated f" is from'):
+        with self.assertWarnsRegex(RuntimeWarning, 'No isosurface at 3: "f" is from 0.0'):
             contour(cloud_of(positions, distance, "f"), "f", 3.0, gradient_direction="ascent")
         apart = np.vstack([positions, positions + 100.0])
-        with self.assertWarnsRegex(RuntimeWarning, 'No isosurface at -0.5 of "negated values": all of it is'):
+        with self.assertWarnsRegex(RuntimeWarning, "No isosurface at 0.5: all of it is"):
             contour(apart, np.repeat([0.0, 1.0], len(positions)), 0.5, triangles=True, gradient_direction="ascent")
         np.testing.assert_array_equal(kept.contour(0.3, gradient_direction="ASCENT").points, outwards.points)
         with self.assertRaisesRegex(ValueError, "gradient_direction cannot be 'up': it is \"descent\" or"):
@@ -385,6 +386,10 @@ class ContourTest(unittest.TestCase):
         self.assertEqual(section.arrays["tensors"].shape, (len(section), 3, 3))
         found = vtk_to_numpy(section.polydata.GetPointData().GetArray("tensors"))
         np.testing.assert_array_equal(found, section.arrays["tensors"].reshape(-1, 9))
+        for surface in (contour(*samples(), 0.3, arrays={"tensors": tensors}),
+                        contour(*samples(), 0.3, arrays={"tensors": tensors}).splats()):
+            expected = np.einsum("ni,nj->nij", surface.points, surface.points)
+            np.testing.assert_allclose(surface.arrays["tensors"], expected, atol=0.05)
 
     def test_all_compiled_classes_are_exported(self):
         modules = map(scatteredisopoints._module, scatteredisopoints._COMPILED)

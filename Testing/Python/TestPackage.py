@@ -260,7 +260,7 @@ class Results(unittest.TestCase):
         for wrong in ("a", None, [1.0, 2.0]):
             with self.assertRaisesRegex(ValueError, "scale cannot be .*: it is a real number"):
                 surface.splats(wrong)
-        for wrong in (np.ones((len(surface), 2, 3)), np.ones(3)):
+        for wrong in (np.ones((len(surface), 0)), np.ones(3)):
             surface.arrays["wrong"] = wrong
             with self.assertRaisesRegex(ValueError, "wrong have the shape"):
                 surface.splats()
@@ -381,7 +381,7 @@ class Results(unittest.TestCase):
         own = contour(positions, values, 0.3, arrays={"Normals": positions}, compute_normals=False, triangles=True)
         own.points = own.points.astype(np.float32).tolist()
         self.assertEqual(own.arrays.keys(), {"Normals", "values"})
-        for wrong, text in ((own.points[1:], "points have the shape .*: give a position for each"),
+        for wrong, text in ((own.points[1:], "points have the shape .*: give one for each"),
                             (own.points[:, :2], r"points have the shape .*, not \(n, 3\)")):
             with self.assertRaisesRegex(ValueError, text):
                 own.points = wrong

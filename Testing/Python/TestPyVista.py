@@ -3,6 +3,8 @@
 
 import doctest
 import gc
+import pathlib
+import re
 import unittest
 import warnings
 import weakref
@@ -43,6 +45,7 @@ class Accessor(Warned):
     def test_nothing_has_to_be_imported(self):
         names = [accessor.name for accessor in pv.registered_accessors()]
         self.assertIn("scattered", dir(cloud()) + names)
+        self.assertRegex(repr(cloud().scattered), "^<scattered of a PolyData: body, compute_deriv.*, contour, ")
 
     def test_triangles(self):
         data = cloud()
@@ -76,7 +79,7 @@ class Accessor(Warned):
         visible = np.count_nonzero(octagons["Radius"])
         self.assertLess(visible, isopoints.n_points)  # some are hidden behind close ones
         self.assertEqual(octagons.scattered.splats().n_cells, 6 * visible)
-        with self.assertRaisesRegex(ValueError, "no normals"):
+        with self.assertRaisesRegex(ValueError, "no normals: extract them with compute_normals"):
             cloud().scattered.splats()
 
     def test_numbers_of_isosurfaces(self):
@@ -297,6 +300,10 @@ class Accessor(Warned):
             np.testing.assert_array_equal(found.points, surface.points)
             np.testing.assert_array_equal(found.regular_faces, surface.triangles)
             np.testing.assert_array_equal(found["Normals"], surface.normals)
+        text = (pathlib.Path(__file__).parents[2] / "docs/python.md").read_text()
+        call, = re.findall(r"^hot\S*\.smooth_taubin\(.*?\)", text, re.MULTILINE)
+        with mock.patch.object(pv.PolyData, "smooth_taubin") as smooth:  # cvista may lack it
+            self.assertIs(eval(call, {"hot": surface}), smooth.return_value)
 
 
 class Probing(Warned):
@@ -558,6 +565,44 @@ class Probing(Warned):
             data["plane"] = 2 * data["plane"]
             self.assertAlmostEqual(data.scattered.probe(inside, "plane")["plane"][0], 6, places=5)
             self.assertGreater(data.scattered.contour([6], "plane").n_points, 100)
+
+    def test_text_is_left_out(self):
+        data, text = self.cloud(), 'Left out are "words": they hold no numbers.'
+        data["words"] = ["word"] * data.n_points
+        where = [[0.4, 0.5, 0.5], [0.6, 0.5, 0.5]]
+        for source in (data, pv.MultiBlock([data, data.translate((2, 0, 0))])):
+            for call in (lambda: source.scattered.contour([3], "plane"), lambda: source.scattered.body(),
+                         lambda: source.scattered.probe(where), lambda: source.scattered.slice("x"),
+                         lambda: source.scattered.sample_over_line(*where, 5), lambda: contour(source, "plane", 3)):
+                self.assertIn(text, self.caught(call)[0])
+            for call in (lambda: source.scattered.slice("x", scalars="plane"), lambda: source.scattered.body("plane"),
+                         lambda: source.scattered.probe(where, "plane")):
+                self.assertNotIn(text, self.caught(call)[0])
+        self.assertEqual(data.scattered.probe([0.4, 0.5, 0.5], "plane").n_points, 1)
+        self.assertEqual(data.scattered.probe([], "plane").n_points, 0)
+
+    def test_unknown_options(self):
+        """The message has the names of this call."""
+        data = self.cloud()
+        for call, names in (
+                (lambda: data.scattered.slice(q=1), "drop_gaps interpolation offsets scalars preference threads"),
+                (lambda: data.scattered.slice_orthogonal(q=1), "interpolation x y z"),
+                (lambda: data.scattered.slice_implicit(len, q=1), "interpolation implicit_function"),
+                (lambda: data.scattered.body(q=1), "minimum_piece_size scalars"),
+                (lambda: data.scattered.to_grid(3, q=1), "method spacing scalars"),
+                (lambda: data.scattered.sample_over_line(*[[0, 0, 0]] * 2, q=1), "method resolution"),
+                (lambda: data.scattered.contour([3], "plane", q=1), "isosurfaces rng capping"),
+                (lambda: slice_samples(data, q=1), "arrays interpolation function"),
+                (lambda: body(data, q=1), "arrays threads"),
+                (lambda: contour(data, "plane", 3, q=1), "isovalues arrays drop_gaps")):
+            with self.assertRaisesRegex(TypeError, "unknown option q: there are ") as caught:
+                call()
+            listed = str(caught.exception).partition(": there are ")[2].split(", ")
+            self.assertEqual(set(names.split()) - set(listed), set())
+        for call, text in ((lambda: data.scattered.slice(interpolate="linear"), "did you mean interpolation?"),
+                           (lambda: data.scattered.contour([3], "plane", values=1), "did you mean scalars?")):
+            with self.assertRaisesRegex(TypeError, text):
+                call()
 
     def test_wrong_choices(self):
         data = self.cloud()
