@@ -416,6 +416,8 @@ class Results(unittest.TestCase):
         self.assertEqual({*_option_types.ContourOptions.__annotations__}, of_library | of_python)
         self.assertEqual({*_options.option_names(False), *_options.option_names(True)},
                          of_library | of_python - {"gradient_direction"})
+        for none in (None, "none", "None", "no_projection"):  # as messages advise
+            self.assertEqual(_options.make_options(True, {"projection": none}).projection, 0)
         for function in (contour, scatteredisopoints.body, scatteredisopoints.slice_samples, Samples.contour):
             self.assertIn("options", typing.get_type_hints(function))
 
