@@ -95,6 +95,22 @@ std::string describeTooFew(const Report& report)
          std::string(". Add samples around the surface.");
 }
 
+/// Which isovalues have a surface.
+std::string describeRange(
+  const Report& report, const std::string& least, const std::string& greatest)
+{
+  if (report.areCapped)
+  {
+    return report.areNegated ? "greater than " + least : "less than " + greatest;
+  }
+  if (report.areTriangles)
+  {
+    return "greater than " + least + " and less than " + greatest;
+  }
+  return report.areNegated ? "less than " + greatest + ", down to " + least
+                           : "greater than " + least + ", up to " + greatest;
+}
+
 Message describeIsovaluesOutside(const Report& report, const std::vector<double>& outside)
 {
   if (outside.empty())
@@ -112,16 +128,17 @@ Message describeIsovaluesOutside(const Report& report, const std::vector<double>
   {
     return { "constant array " + report.array,
       "No isosurface: all values of " + describeArray(report) + " are " + least +
-        ". Choose another array" + (report.areCapped ? ", or a lower isovalue." : "."),
+        ". Choose another array" +
+        (report.areCapped
+            ? std::string(", or a ") + (report.areNegated ? "higher" : "lower") + " isovalue."
+            : "."),
       Message::Warning, Message::ConstantValues };
   }
   const std::string isovalues = join(outside, digits);
   const std::string greatest = textOf(report.greatest, digits);
   return { "isovalues outside of " + report.array + ": " + isovalues,
     "No isosurface at " + isovalues + ": " + describeArray(report) + " is from " + least + " to " +
-      greatest + ". Choose isovalues that are " +
-      (report.areCapped ? "" : "greater than " + least + (report.areTriangles ? " and " : ", ")) +
-      (report.areTriangles ? "less than " : "up to ") + greatest + ".",
+      greatest + ". Choose isovalues that are " + describeRange(report, least, greatest) + ".",
     Message::Warning, Message::IsovalueOutside };
 }
 
@@ -157,8 +174,8 @@ Reason reasonOfEmptyIsovalue(const Report& report, bool isInGaps, OptionNaming n
     return { Message::NoCrossing, "the samples are in one plane. Add samples beside it." };
   }
   return { Message::NoCrossing,
-    report.areTriangles ? "no tetrahedron of the samples crosses it. Of samples in one plane, apply"
-                          " Delaunay 2D and Contour."
+    report.areTriangles ? "no tetrahedron of the samples crosses it. Samples in one plane have"
+                          " isolines instead: contour their Delaunay 2D triangulation."
                         : "samples at one position count with the mean of their values." };
 }
 
@@ -268,9 +285,21 @@ std::vector<Message> describeIsovalues(const Report& report, OptionNaming naming
       (isInRange(report, value) ? inside : outside).push_back(value);
     }
   }
-  return { describeIsovaluesOutside(report, outside),
-    describeEmptyIsovalues(report, inGaps, true, naming),
-    describeEmptyIsovalues(report, empty, false, naming) };
+  Report shown = report;
+  if (report.areNegated)
+  {
+    shown.least = -report.greatest;
+    shown.greatest = -report.least;
+    for (std::vector<double>* const isovalues : { &outside, &inGaps, &empty })
+    {
+      std::reverse(isovalues->begin(), isovalues->end());
+      std::transform(isovalues->begin(), isovalues->end(), isovalues->begin(),
+        [](double isovalue) { return 0.0 - isovalue; }); // 0 stays 0
+    }
+  }
+  return { describeIsovaluesOutside(shown, outside),
+    describeEmptyIsovalues(shown, inGaps, true, naming),
+    describeEmptyIsovalues(shown, empty, false, naming) };
 }
 
 bool areMostUnprojected(const Report& report)
@@ -290,9 +319,9 @@ Message describeUnprojected(const Report& report, OptionNaming naming)
     "No fit holds at " + std::to_string(report.unprojectedPoints) + " of " +
       std::to_string(points) +
       " points: the surface may be rough. Smooth the values if they are noisy. For samples on a"
-      " surface, such as a plane or a shell, turn " +
+      " surface, such as a plane or a shell, set " +
       naming(option::projection.name) +
-      " off. Samples along lines, such as drill holes, do not determine a surface.",
+      " to none. Samples along lines, such as drill holes, do not determine a surface.",
     Message::Warning, Message::PointsWithoutFit };
 }
 

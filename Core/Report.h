@@ -107,6 +107,7 @@ struct Report : SampleCounts
   std::uint64_t beyondFloat = 0;        // points with a position or radius that float cannot hold
   std::set<std::string> replacedArrays; // input arrays named like a computed one
   bool isPieceOfProcess = false;        // one of several processes without a controller
+  bool areNegated = false;              // whether values and isovalues are a user's, negated
   /// The range of the values in use; empty without any.
   double least = std::numeric_limits<double>::infinity();
   double greatest = -std::numeric_limits<double>::infinity();

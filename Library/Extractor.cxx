@@ -45,6 +45,12 @@ isopoint_status isopoint_set_value_name(isopoint_extractor* extractor, const cha
   return isopoint::runOn(extractor, "extractor", [&]() { extractor->Name = name ? name : ""; });
 }
 
+isopoint_status isopoint_set_values_negated(isopoint_extractor* extractor, int32_t are_negated)
+{
+  return isopoint::runOn(
+    extractor, "extractor", [&]() { extractor->AreNegated = are_negated != 0; });
+}
+
 isopoint_status isopoint_set_samples(isopoint_extractor* extractor, const isopoint_array* positions,
   const isopoint_array* values, const isopoint_array* excluded)
 {
@@ -121,6 +127,7 @@ isopoint_status isopoint_extract(isopoint_extractor* extractor, const double* is
       isopoint::Report report(
         chosen, isopoint::sortedIsovalues(std::vector<double>(isovalues, isovalues + count)));
       report.array = extractor->Name;
+      report.areNegated = extractor->AreNegated;
       report.countSamples(extractor->Extractor, extractor->Counts);
       const isopoint::Execution execution = extractor->makeExecution();
       std::vector<isopoint::ExtractedIsosurface> parts = isopoint::extractIsovalues(

@@ -15,6 +15,7 @@ struct isopoint_extractor
   isopoint::SampleTypes Types;
   isopoint::CloudCounts Counts;
   std::string Name;        // of the values
+  bool AreNegated = false; // in the view of the user
   bool HasSamples = false; // even if all are skipped
   bool HasValues = false;
   std::int32_t Threads = 0;      // 0: all cores

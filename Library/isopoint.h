@@ -226,6 +226,12 @@ ISOPOINT_API isopoint_status isopoint_set_extractor_callbacks(isopoint_extractor
 ISOPOINT_API isopoint_status isopoint_set_value_name(
   isopoint_extractor* extractor, const char* name);
 
+/* Says whether values and isovalues are those of a user, negated, as for a body at or below an
+ * isovalue: messages then show the user's numbers.
+ * @param are_negated 0, the default: they are not */
+ISOPOINT_API isopoint_status isopoint_set_values_negated(
+  isopoint_extractor* extractor, int32_t are_negated);
+
 /* Loads samples, which replace all former ones. Arrays are read only during the call. If positions,
  * types and skipped samples are the same as before, the tree is kept and only values are replaced:
  * a later time step takes a fraction of the time.

@@ -149,7 +149,7 @@ std::string vtkIsopointSplatShapes::Problem() const
   if (this->Shapes->HasArray(vtkSplatPolygonArrayName) && !this->Polygons)
   {
     return "The array \"SplatPolygon\" has not 40 components for each vertex cell: splats are "
-           "octagons of the points' radii. Use the array as vtkScatteredIsopointFilter writes it.";
+           "octagons of the points' radii. Keep the array as it was extracted.";
   }
   if (this->Polygons && !this->Axes)
   {

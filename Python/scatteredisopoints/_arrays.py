@@ -48,6 +48,14 @@ def as_numpy(array: Any) -> np.ndarray:
     return module_of(array, "util.numpy_support").vtk_to_numpy(array)
 
 
+def checksum(array: np.ndarray) -> int:
+    """A hash of the type, the shape and the bytes of an array, equal for two different ones once in 2^61. Takes a few
+    percent of the time of loading them as samples."""
+    rows = 1 << 15  # so that copies fit in a cache
+    parts = (array[i:i + rows].tobytes() for i in range(0, len(array), rows))
+    return hash((array.dtype.str, array.shape, *map(hash, parts)))
+
+
 def readable(name: str, array: Any) -> np.ndarray:
     """Converts an array to a type and layout that the library reads (no zero strides); masked entries
     become NaN. Raises TypeError for types without an order, such as complex numbers or text."""
@@ -76,6 +84,14 @@ def readable(name: str, array: Any) -> np.ndarray:
     return result
 
 
+def shape_error(name: str, shape: tuple[int, ...], wanted: str) -> ValueError:
+    """An error about positions of a wrong shape."""
+    remedy = (f"pass {name}.T" if len(shape) == 2 and shape[0] == 3 else
+              f"for {name} in a plane append zeros" if shape[1:] == (2,) else
+              "pass three coordinates of each")
+    return ValueError(f"{name} have the shape {shape}, not {wanted}: {remedy}")
+
+
 def positions_of(array: Any, name: str = "positions") -> np.ndarray:
     """Positions with shape (n, 3), float32 or float64."""
     if isinstance(array, (str, os.PathLike)):
@@ -83,10 +99,7 @@ def positions_of(array: Any, name: str = "positions") -> np.ndarray:
                         " python -m scatteredisopoints")
     result = readable(name, array)
     if result.ndim != 2 or result.shape[1] != 3:
-        remedy = (f"pass {name}.T" if result.ndim == 2 and len(result) == 3 else
-                  f"for {name} in a plane append zeros" if result.shape[1:] == (2,) else
-                  "pass three coordinates of each")
-        raise ValueError(f"{name} have the shape {result.shape}, not (n, 3): {remedy}")
+        raise shape_error(name, result.shape, "(n, 3)")
     return result if result.dtype.kind == "f" else result.astype(np.float64)
 
 
@@ -97,10 +110,9 @@ def values_of(array: Any, count: int) -> tuple[np.ndarray, Optional[np.ndarray]]
         raise TypeError("values are missing: one for each position")
     masked = None
     if isinstance(array, np.ma.MaskedArray):
-        masked = checked_column("values", np.ma.getmaskarray(array), count, one_component=True).view(bool)
+        masked = _checked_values(np.ma.getmaskarray(array), count).view(bool)
         array = array.data
-    return (checked_column("values", array, count, one_component=True),
-            masked if masked is not None and masked.any() else None)
+    return _checked_values(array, count), masked if masked is not None and masked.any() else None
 
 
 def describe_masked(masked: np.ndarray) -> str:
@@ -110,22 +122,20 @@ def describe_masked(masked: np.ndarray) -> str:
     return f"{np.count_nonzero(masked)} of {len(masked)} values are masked: their samples are left out. {remedy}"
 
 
-def checked_column(name: str, array: Any, count: int, one_component: bool = False) -> np.ndarray:
-    """An array of the samples with shape (count,) or, unless one_component, (count, components)."""
-    result = readable(name, array)
-    if one_component and result.ndim == 2 and result.shape[1] == 1:
+def _checked_values(array: Any, count: int) -> np.ndarray:
+    """Values of the samples with shape (count,)."""
+    result = readable("values", array)
+    if result.ndim == 2 and result.shape[1] == 1:
         result = result[:, 0]
-    has_components = result.ndim == 2 and result.shape[1] > 0 and not one_component
-    if not (result.ndim == 1 or has_components) or len(result) != count:
-        wanted = f"({count},)" if one_component else f"({count},) or ({count}, components)"
-        raise ValueError(f"{name} have the shape {result.shape}, not {wanted}")
+    if result.shape != (count,):
+        raise ValueError(f"values have the shape {result.shape}, not ({count},)")
     return result
 
 
 def checked_tensors(name: str, array: Any, count: int) -> np.ndarray:
     """An array of the samples with any number of components, in shape (count, ...)."""
     result = readable(name, array)
-    if result.ndim < 1 or len(result) != count or 0 in result.shape:
+    if result.ndim < 1 or len(result) != count or 0 in result.shape[1:]:
         remedy = ": give several arrays as a mapping of names to them" if result.shape[1:2] == (count,) else ""
         raise ValueError(f"{name} have the shape {result.shape}, not ({count},) or ({count}, components){remedy}")
     return result
@@ -155,7 +165,27 @@ def further_arrays(arrays: Optional[Mapping[str, Any]], count: int) -> dict[str,
         raise TypeError(MAPPING_NEEDED)
     if "values" in arrays:
         raise ValueError('an array cannot have the name "values", which is that of the values')
-    return {name: checked_column(name, array, count) for name, array in by_name(arrays).items()}
+    return {name: checked_tensors(name, array, count) for name, array in by_name(arrays).items()}
+
+
+def without_text(arrays: Any) -> tuple[Any, list[str]]:
+    """A mapping of names to arrays without those that hold text or times, such as columns of a table, and the names of
+    these. Returns other arguments as they are."""
+    if not isinstance(arrays, Mapping):
+        return arrays, []
+    names = [name for name, array in arrays.items() if not isinstance(array, str) and _holds_text(array)]
+    return {name: array for name, array in arrays.items() if name not in names}, names
+
+
+def _holds_text(array: Any) -> bool:
+    if hasattr(array, "IsA"):
+        return not array.IsA("vtkDataArray")
+    try:
+        numbers = np.asarray(array)
+    except ValueError:  # of lists of different lengths
+        return False
+    return numbers.dtype.kind in "USTMm" or (
+        numbers.dtype.kind == "O" and any(isinstance(each, str) for each in numbers.flat))
 
 
 def levels_of(name: str, given: Union[float, Iterable[float], None]) -> list[float]:

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any, Mapping, Optional
 import numpy as np
 
 from . import _library
+from ._arrays import without_text
 from ._isosurface import Isosurface
 from ._option_types import BodyOptions
-from ._options import check_names, make_options
+from ._options import OF_BODIES, check_names, make_options
 from ._progress import Progress, part, shown_progress
 from ._slices import warn_of
 
@@ -40,8 +41,9 @@ def compute_body(samples: Samples, options: Mapping[str, Any], arrays: Any, thre
 def body_with_warnings(samples: Samples, arrays: Any, threads: Optional[int], progress: Progress,
                        options: Mapping[str, Any], stacklevel: int) -> Isosurface:
     """Samples.body()."""
-    check_names(options, OPTIONS)
+    check_names(options, OPTIONS, OF_BODIES)
+    arrays, of_text = without_text(arrays)
     with shown_progress(progress, "Finding the body") as report:
         made, messages = compute_body(samples, options, arrays, threads, report)
-    warn_of(samples, made, messages, arrays is None, stacklevel + 1)
+    warn_of(samples, made, messages, arrays is None, of_text, stacklevel + 1)
     return made

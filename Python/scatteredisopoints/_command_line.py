@@ -21,7 +21,7 @@ from ._arrays import as_numpy
 from ._datasets import DataSamples
 from ._isosurface import Isosurface
 from ._lines_and_grids import lattice, line_between
-from ._option_types import OPTION_TYPES, BodyOptions, SliceOptions
+from ._option_types import OPTION_TYPES, BodyOptions, ContourOptions, SliceOptions
 from ._options import CONSTANTS, INTERPOLATIONS, check_names
 from ._paths import PYTHON_PLUGIN
 from ._polydata import PolyDataMaker
@@ -32,6 +32,8 @@ from ._writing import file_to_write, write_csv, writer_for
 
 PROGRAM = "scatteredisopoints" if Path(sys.argv[0]).stem == "scatteredisopoints" else "python -m scatteredisopoints"
 MARK = "\0"  # begins an argument that is no option: the system passes none with this character
+OPTIONS = {"contour": ContourOptions.__annotations__, "body": BodyOptions.__annotations__,
+           "slice": SliceOptions.__annotations__}
 FILES = """
 FILE: CSV and other text (x, y, z and more columns between commas, semicolons, tabs or blanks; - is stdin), NPY (shape
 (n, 4): x, y, z, value), NPZ, PLY, or what PyVista or meshio reads. OUT: .ply, .stl, .obj, .npz, .csv; with PyVista
@@ -63,7 +65,7 @@ def loaded(samples: DataSamples, given: argparse.Namespace, report: Progress) ->
 def options_of(given: argparse.Namespace) -> dict[str, Any]:
     """Options by name, without other parameters. Raises TypeError for an unknown one, ValueError for one twice."""
     options = dict(given.option)
-    check_names(options, OPTION_TYPES)
+    check_names(options, OPTIONS[given.command])
     if len(options) < len(given.option):
         raise ValueError(f"an option is given twice: {', '.join(name for name, _ in given.option)}")
     return options
@@ -190,11 +192,10 @@ def add_command(commands: Any, name: str, function: Any, summary: str, out: str,
                 ) -> argparse.ArgumentParser:
     """Adds a command with the arguments that all have."""
     text = "".join(f"  {PROGRAM} {name} {each}\n" for each in examples)
-    if name != "probe":
-        names = {"body": BodyOptions.__annotations__, "slice": SliceOptions.__annotations__}.get(name, OPTION_TYPES)
+    if name in OPTIONS:
         described = "slice_samples" if name == "slice" else name
         text += f"\nproperties of --option, which python -m pydoc scatteredisopoints.{described} describes:\n"
-        text += "".join(f"  {each}={choices_of(each)}\n" for each in sorted(names))
+        text += "".join(f"  {each}={choices_of(each)}\n" for each in sorted(OPTIONS[name]))
     added = commands.add_parser(
         name, description=summary, help=summary, epilog=f"examples:\n{text}{FILES}", allow_abbrev=False,
         formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -207,7 +208,7 @@ def add_command(commands: Any, name: str, function: Any, summary: str, out: str,
     if name != "contour":
         added.set_defaults(points=name == "probe")
         added.add_argument("arrays", metavar="ARRAY", nargs="*", type=plain, help="default: all")
-    if name != "probe":
+    if name in OPTIONS:
         added.add_argument("--option", metavar="NAME=VALUE", action="append", type=option, default=[],
                            help="a property, such as drop_gaps=false; see below")
     return added

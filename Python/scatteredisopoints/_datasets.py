@@ -13,7 +13,8 @@ from typing import Any, Callable, Iterable, Iterator, Mapping, Optional, Sequenc
 import numpy as np
 
 from ._arrays import (
-    CELL, FLOAT, POINT, are_names, as_numpy, module_of, package_of, positions_of, values_of)
+    CELL, FLOAT, POINT, are_names, as_numpy, checksum, module_of, package_of, positions_of, readable, shape_error,
+    values_of)
 from ._ghosts import excluded_cells, excluded_points, ghosts_of
 from ._library import Message
 from ._lines_and_grids import lattice
@@ -35,6 +36,7 @@ class DataSamples:
     maker: PolyDataMaker
     without_array: int = 0  # points or cells of blocks without the array
     differing: tuple[str, ...] = ()  # arrays that not all blocks have alike
+    of_text: tuple[str, ...] = ()  # arrays without numbers
     masked: Optional[np.ndarray] = None  # bool: which values are masked; None without any
     name: str = ""  # of the values, for messages
     association: int = POINT  # of the first block
@@ -92,10 +94,19 @@ def leaves(data: Any) -> Iterator[Any]:
 
 def bounds_of(data: Any) -> np.ndarray:
     """The bounds of all points, in the shape (3, 2). Raises NoSamplesError if there are none."""
-    boxes = [leaf.GetBounds() for leaf in leaves(data) if leaf.IsA("vtkDataSet") and leaf.GetNumberOfPoints() > 0]
+    boxes = [_box_of(leaf) for leaf in leaves(data) if leaf.IsA("vtkDataSet") and leaf.GetNumberOfPoints() > 0]
     if not boxes:
         raise NoSamplesError()
-    return np.stack([np.min(boxes, axis=0)[::2], np.max(boxes, axis=0)[1::2]], axis=1)
+    return np.stack([np.min(boxes, axis=0)[:, 0], np.max(boxes, axis=0)[:, 1]], axis=1)
+
+
+def _box_of(leaf: Any) -> np.ndarray:
+    """GetBounds(), which misses changes that VTK has no notice of, in the shape (3, 2)."""
+    if leaf.IsA("vtkImageData"):
+        return np.reshape(leaf.GetBounds(), (3, 2))
+    axes = (map(as_numpy, _coordinates(leaf)) if leaf.IsA("vtkRectilinearGrid") else
+            as_numpy(leaf.GetPoints().GetData()).T)
+    return np.array([(np.fmin.reduce(axis), np.fmax.reduce(axis)) for axis in axes], np.float64)
 
 
 def state_of(data: Any) -> tuple:
@@ -106,11 +117,29 @@ def state_of(data: Any) -> tuple:
         times = [leaf.GetMTime()]
         if leaf.IsA("vtkDataSet"):  # blanking changes flags in place
             marks = (ghosts_of(leaf, association) for association in (POINT, CELL))
-            times += [hash(each.tobytes()) for each in marks if each is not None]
+            times += [checksum(each) for each in marks if each is not None]
         if leaf.IsA("vtkRectilinearGrid"):
             times += [axis.GetMTime() for axis in _coordinates(leaf)]
         state.append((leaf.__this__, *times))
     return tuple(state)
+
+
+def contents_of(data: Any, values: Optional[str]) -> tuple:
+    """A value that changes with state_of(), and when NumPy changes what samples are loaded from, of which VTK has no
+    notice: coordinates and the array of this name. The samples of a composite are copies of all arrays."""
+    is_composite = data.IsA("vtkCompositeDataSet")
+    sums = []
+    for leaf in leaves(data):
+        if not leaf.IsA("vtkDataSet"):
+            continue
+        arrays = list(_coordinates(leaf)) if leaf.IsA("vtkRectilinearGrid") else []
+        if leaf.IsA("vtkPointSet") and leaf.GetPoints() is not None:
+            arrays.append(leaf.GetPoints().GetData())
+        for association in (POINT, CELL):
+            arrays += [array for name, array, _ in named_arrays(leaf.GetAttributes(association))
+                       if is_composite or name == values]
+        sums.append(tuple(checksum(as_numpy(array)) for array in arrays))
+    return (state_of(data), *sums)
 
 
 def samples_with_values(
@@ -218,7 +247,8 @@ def _gathered(data: Any, block_of: Callable[[Any], Optional[DataSamples]], descr
         block = block_of(leaf)
         if block is not None:
             block.parts = [Part(number, block.association, leaf.GetNumberOfElements(block.association))]
-            block.arrays = block.arrays if with_arrays else {}
+            if not with_arrays:
+                block.arrays, block.of_text = {}, ()
             blocks.append(block)
         else:
             without_array += size
@@ -281,6 +311,11 @@ def describe_differing(names: Iterable[str]) -> str:
     return f"Left out are {_quoted(names)}: not all blocks have these arrays with the same type and components."
 
 
+def describe_text(names: Iterable[str]) -> str:
+    """A message about arrays without numbers."""
+    return f"Left out are {_quoted(names)}: they hold no numbers."
+
+
 def _quoted(names: Iterable[str]) -> str:
     return ", ".join(f'"{name}"' for name in names)
 
@@ -326,7 +361,14 @@ def _block(leaf: Any, association: int, scalars: Any, are_values: bool = True) -
                 uses[key] = use
     maker = PolyDataMaker(scalars=name or None, uses=uses)
     return DataSamples(positions, scalars if are_values else None, excluded, arrays, maker, association=association,
+                       of_text=_names_of_text(leaf.GetAttributes(association)),
                        name="" if scalars is None or isinstance(scalars, np.ndarray) else name)
+
+
+def _names_of_text(attributes: Any) -> tuple[str, ...]:
+    """The names of arrays without numbers."""
+    arrays = map(attributes.GetAbstractArray, range(attributes.GetNumberOfArrays()))
+    return tuple(array.GetName() for array in arrays if array.GetName() and not array.IsA("vtkDataArray"))
 
 
 def named_arrays(attributes: Any) -> Iterator[tuple[str, Any, int]]:
@@ -356,18 +398,24 @@ def _joined(blocks: list[DataSamples]) -> DataSamples:
     return DataSamples(np.concatenate(positions), np.concatenate(values) if values else None,
                        np.concatenate(excluded), arrays,
                        PolyDataMaker(scalars=name or None, uses=uses), differing=tuple(differing), name=name,
+                       of_text=tuple(dict.fromkeys(each for block in blocks for each in block.of_text)),
                        are_float=all(each.dtype == np.float32 for each in values),
                        parts=[part for block in blocks for part in block.parts])
 
 
-def place_positions(places: Any) -> np.ndarray:
-    """Places with shape (n, 3), those of a data set at its points."""
+def place_positions(places: Any) -> tuple[np.ndarray, tuple[int, ...]]:
+    """Places with shape (n, 3), those of a data set at its points; and the shape of places without their last axis."""
     data = data_object(places)
     if data is not None and not data.IsA("vtkDataSet"):
         remedy = ("pass its blocks one by one, or combine them first" if data.IsA("vtkCompositeDataSet") else
                   "pass positions, shape (n, 3)")
         raise TypeError(f"A {data.GetClassName()} has no points of its own: {remedy}.")
-    return positions_of(places if data is None else as_numpy(point_positions(data)), "places")
+    numbers = readable("places", places if data is None else as_numpy(point_positions(data)))
+    if numbers.shape == (0,):
+        numbers = numbers.reshape(0, 3)
+    if numbers.shape[-1:] == (3,):
+        return positions_of(numbers.reshape(-1, 3), "places"), numbers.shape[:-1]
+    raise shape_error("places", numbers.shape, "(..., 3)")
 
 
 def point_positions(leaf: Any) -> Any:

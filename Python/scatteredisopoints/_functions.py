@@ -47,8 +47,8 @@ def contour(
     triangles
         Whether to connect points by triangles instead of giving them radii.
     arrays
-        Further arrays of the samples to interpolate, by name, with shapes (n,) or (n, components). Not for
-        a data set, which has its own.
+        Further arrays of the samples to interpolate, by name, with shapes (n,) or (n, ...). Not for a data set,
+        which has its own. Those of text or times are left out, with a warning.
     threads
         Maximum number of threads; None: all available cores. The result does not depend on it.
     progress
@@ -225,7 +225,7 @@ def probe(
         Where one is not finite or masked, this array gets its value from the other samples around. For a data set
         also the name of an array of points or cells, or a list of names.
     places
-        Where to interpolate, shape (m, 3), or a data set, at its points.
+        Where to interpolate, shape (m, 3), (3,) of a single place, or any (..., 3); or a data set, at its points.
     gradient
         Whether to compute gradients, too.
     method
@@ -240,7 +240,8 @@ def probe(
     Values of float64, shape (m,) or (m, c). "nearest" keeps float32, float64 and integers, which are 0 outside if
     they cannot be the number. Of other types, bool gives uint8, float16 float32, and longdouble float64; integers
     with masked entries give float32 up to 16 bits, and float64 above. With gradient, a pair of these and of
-    gradients, shape (m, 3) or (m, c, 3). A dict of arrays gives dicts. Errors and warnings are as in :func:`contour`.
+    gradients, shape (m, 3) or (m, c, 3); for m, the shape of the places without their last axis. A dict of arrays
+    gives dicts. Errors and warnings are as in :func:`contour`.
 
     Examples
     --------

@@ -22,6 +22,10 @@ class Interpolator:
         self._array = array
         self._options = options
 
+    def __repr__(self) -> str:
+        name = self._array if isinstance(self._array, str) else self._samples._name or "values"
+        return f'<Interpolator: "{name}" of {len(self._samples)} samples, method {self._options["method"]!r}>'
+
     def __call__(self, *x: Any) -> np.ndarray:
         """The values at places.
 
@@ -45,9 +49,6 @@ class Interpolator:
             raise TypeError(f"an interpolator takes places, shape (..., 3), or x, y and z: not {len(x)} arguments")
         numbers = [readable("places", each) for each in x]
         places = numbers[0] if len(x) == 1 else np.stack(np.broadcast_arrays(*numbers), axis=-1)
-        if places.shape[-1:] != (3,):
-            raise ValueError(f"places have the shape {places.shape}, not (..., 3)")
-        found = self._samples._probe(places.reshape(-1, 3), self._array, gradient, **self._options, progress=None,
-                                     stacklevel=4, seeks_gaps=False)
-        found = found[1] if gradient else found
-        return found.reshape(places.shape[:-1] + found.shape[1:])
+        found = self._samples._probe(places, self._array, gradient, **self._options, progress=None, stacklevel=4,
+                                     seeks_gaps=False)
+        return found[1] if gradient else found

@@ -14,7 +14,7 @@ from typing import Any, Iterable, Iterator, Mapping, Optional, Union
 import numpy as np
 
 from . import _library
-from ._arrays import checked_column, package_of, readable
+from ._arrays import checked_tensors, package_of, positions_of, readable
 from ._measures import Measures, Piece, measure
 from ._options import number_of, thread_count
 from ._polydata import PolyDataMaker
@@ -23,7 +23,7 @@ from ._progress import Progress, shown_progress
 
 class Isosurface:
     """Points on isosurfaces, or triangles between them, as :func:`contour` makes them: the constructor is private.
-    Arrays are views that keep their memory alive.
+    Arrays are read-only views that keep their memory alive.
 
     Examples
     --------
@@ -35,15 +35,8 @@ class Isosurface:
     (3, True, ['values', 'Normals'])
     """
 
-    points: np.ndarray
-    """Positions in the unit of the input: shape (n, 3), of float32 or float64."""
-
-    triangles: Optional[np.ndarray]
-    """Indices of points, shape (m, 3), counterclockwise seen from lower values, or from higher ones with
-    gradient_direction="ascent"; None of points."""
-
     arrays: dict[str, np.ndarray]
-    """All numeric arrays of the points by name: shape (n,) or (n, components)."""
+    """All numeric arrays of the points by name: shape (n,) or (n, ...), as those of the samples."""
 
     splat_shapes: Mapping[str, np.ndarray]
     """What splats look like: SplatAxis, shape (n, 3), and SplatPolygon, (n, 40), five numbers for each of eight
@@ -66,11 +59,12 @@ class Isosurface:
         isovalues: Optional[np.ndarray] = None,
         is_capped: bool = False,
     ):
-        self.points = points
-        self.triangles = triangles
+        self._points = points
+        self._triangles = triangles
         self.arrays = arrays or {}
         self.splat_shapes = splat_shapes or {}
         self.cell_arrays = cell_arrays or {}
+        self._lock_arrays()
         self._make_polydata = make_polydata
         self._polydata: Any = None
         self._threads = threads
@@ -81,6 +75,40 @@ class Isosurface:
 
     def __getstate__(self) -> dict[str, Any]:
         return {**vars(self), "_polydata": None}  # VTK's objects cannot be pickled
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        vars(self).update(state)
+        self._lock_arrays()
+
+    def _lock_arrays(self) -> None:
+        """Makes all arrays read-only, because areas and volumes are computed once."""
+        self._points = _locked(self._points)
+        self._triangles = None if self._triangles is None else _locked(self._triangles)
+        for name in ("arrays", "splat_shapes", "cell_arrays"):
+            setattr(self, name, {key: _locked(array) for key, array in getattr(self, name).items()})
+
+    @property
+    def points(self) -> np.ndarray:
+        """Positions in the unit of the input: shape (n, 3), of float32 or float64. Others can be assigned, which clears
+        what they determine: area, volume, pieces, polydata, normals, radii and splats. All other arrays stay."""
+        return self._points
+
+    @points.setter
+    def points(self, positions: Any) -> None:
+        points = positions_of(positions, "points")
+        if len(points) != len(self):
+            raise ValueError(f"points have the shape {points.shape}, not {self._points.shape}: give one for each")
+        self._points = _locked(points.copy())
+        self._measures = self._polydata = None
+        computed = [self._make_polydata.normals, "Radius" if self.splat_shapes else None]
+        self.arrays = {name: array for name, array in self.arrays.items() if name not in computed}
+        self.splat_shapes = {}
+
+    @property
+    def triangles(self) -> Optional[np.ndarray]:
+        """Indices of points, shape (m, 3), counterclockwise seen from lower values, or from higher ones with
+        gradient_direction="ascent"; None of points."""
+        return self._triangles
 
     @property
     def are_triangles(self) -> bool:
@@ -100,7 +128,7 @@ class Isosurface:
 
     @property
     def polydata(self) -> Any:
-        """Points, vertices or triangles, and all arrays, whose memory it shares.
+        """Points, vertices or triangles, and all arrays: a copy, made on first use.
 
         A pyvista.PolyData if the samples were an object of PyVista, otherwise a vtkPolyData. Raises
         ImportError if neither VTK nor PyVista is installed.
@@ -109,8 +137,12 @@ class Isosurface:
             self._polydata = self._make_polydata(self)
         return self._polydata
 
+    def _into_polydata(self) -> Any:
+        """The same without a copy, for callers that keep no isosurface."""
+        return self._make_polydata(self, shares_memory=True)
+
     def to_pyvista(self) -> Any:
-        """A pyvista.PolyData that shares the arrays' memory. Raises ImportError if PyVista is not installed."""
+        """:attr:`polydata` as a pyvista.PolyData. Raises ImportError if PyVista is not installed."""
         pyvista = _imported("pyvista")
         package, data = package_of(pyvista.PolyData()), self.polydata
         if package_of(data) != package:  # PyVista has cvista, while the data are of vtkmodules
@@ -122,7 +154,7 @@ class Isosurface:
         installed, ValueError for points."""
         if self.triangles is None:
             raise ValueError("Points are no mesh: extract triangles.")
-        return _imported("trimesh").Trimesh(self.points, self.triangles, process=False)
+        return _imported("trimesh").Trimesh(self.points.copy(), self.triangles.copy(), process=False)
 
     def save(self, path: Union[str, os.PathLike[str]]) -> None:
         """Writes a file, with all arrays of points that its format can hold. An earlier one keeps its permissions, and
@@ -144,12 +176,12 @@ class Isosurface:
     def pieces(self) -> tuple[Piece, ...]:
         """The connected components of the triangles, largest area first: isovalue, area, and volume. Raises ValueError
         for points."""
-        return self._measured().pieces
+        return self._measured("pieces").pieces
 
     @property
     def region_ids(self) -> np.ndarray:
         """The index in :attr:`pieces` of each triangle's piece, shape (m,): for an array RegionId, as VTK calls it."""
-        return self._measured().region_ids
+        return _locked(self._measured("pieces").region_ids)
 
     @property
     def area(self) -> Union[float, np.ndarray]:
@@ -164,7 +196,7 @@ class Isosurface:
         of a distance, unless gradient_direction is "ascent". NaN, with a warning, unless each edge has exactly two
         triangles."""
         volumes = self._sums("volume")
-        if any(math.isnan(piece.volume) for piece in self.pieces):
+        if any(math.isnan(piece.volume) for piece in self._measured("volume").pieces):
             warnings.warn("Not every edge has exactly two triangles, so there is no volume: extract the surface with"
                           " capping=True.", RuntimeWarning, stacklevel=2)
         elif not np.isfinite(volumes).all():
@@ -172,9 +204,9 @@ class Isosurface:
                           stacklevel=2)
         return volumes
 
-    def _measured(self) -> Measures:
+    def _measured(self, name: str) -> Measures:
         if self.triangles is None:
-            raise ValueError("Points have no area: extract triangles.")
+            raise ValueError(f"Points have no {name}: extract triangles.")
         if self._measures is None:
             isovalues = np.full(len(self), self._levels[0]) if self._isovalues is None else self._isovalues
             self._measures = measure(self.points, self.triangles, isovalues, not self._is_capped)
@@ -183,7 +215,7 @@ class Isosurface:
     def _sums(self, name: str) -> Union[float, np.ndarray]:
         """The sums over the pieces of each isovalue."""
         sums = np.zeros(len(self._levels))
-        for piece in self.pieces:
+        for piece in self._measured(name).pieces:
             sums[self._levels.index(piece.isovalue) if len(sums) > 1 else 0] += getattr(piece, name)
         return float(sums[0]) if len(sums) == 1 else sums
 
@@ -230,7 +262,7 @@ class Isosurface:
             _library.Callbacks(**callbacks), surface, _library.make_splat_mesh, scale)
         point_of_vertex = _library.view(surface, _library.SPLAT_VERTEX_POINTS)
         is_canceled = callbacks.get("is_canceled")
-        arrays = {name: _at_vertices(surface, checked_column(name, array, len(self)), point_of_vertex, is_canceled)
+        arrays = {name: _at_vertices(surface, checked_tensors(name, array, len(self)), point_of_vertex, is_canceled)
                   for name, array in self.arrays.items()}
         arrays["Normals"] = _library.view(surface, _library.SPLAT_VERTEX_NORMALS)
         return Isosurface(
@@ -247,6 +279,13 @@ class Isosurface:
         return f"<Isosurface: {shown}; arrays: {', '.join(self.arrays) or 'none'}>"
 
 
+def _locked(array: np.ndarray) -> np.ndarray:
+    """A read-only view."""
+    view = array.view()
+    view.flags.writeable = False
+    return view
+
+
 def _imported(package: str) -> Any:
     try:
         return importlib.import_module(package)
@@ -259,8 +298,8 @@ def _at_vertices(surface: _library.Surface, array: np.ndarray, point_of_vertex, 
     if array.dtype.kind != "f":
         return array[point_of_vertex]
     result = np.empty((len(point_of_vertex), *array.shape[1:]), array.dtype)
-    _library.run_with(_library.Callbacks(is_canceled=is_canceled), surface,
-                      _library.average_at_splat_vertices, array, result, result.nbytes)
+    _library.run_with(_library.Callbacks(is_canceled=is_canceled), surface, _library.average_at_splat_vertices,
+                      array.reshape(len(array), math.prod(array.shape[1:])), result, result.nbytes)
     return result
 
 

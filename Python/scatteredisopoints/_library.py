@@ -157,6 +157,7 @@ destroy_extractor = _declare("destroy_extractor", c_void_p, result=None)
 set_extractor_threads = _declare("set_extractor_threads", c_void_p, c_int32)
 set_extractor_callbacks = _declare("set_extractor_callbacks", c_void_p, Progress, Cancels, c_void_p)
 set_value_name = _declare("set_value_name", c_void_p, c_char_p)
+set_values_negated = _declare("set_values_negated", c_void_p, c_int32)
 set_samples = _declare("set_samples", c_void_p, InputArray, InputArray, InputArray)
 get_value_range = _declare("get_value_range", c_void_p, POINTER(2 * c_double), result=None)
 extract = _declare("extract", c_void_p, POINTER(c_double), c_int64, POINTER(Options),

@@ -4,10 +4,11 @@
 from __future__ import annotations
 
 import difflib
+import inspect
 import math
 import operator
 import re
-from typing import Any, Collection, Iterable, Mapping, Optional
+from typing import Any, Callable, Collection, Iterable, Mapping, Optional
 
 import numpy as np
 
@@ -26,7 +27,10 @@ CONSTANTS = {
 INTERPOLATIONS = {"fits": "blend", "linear": None, "nearest": "nearest"}
 """The methods of probe() for the arrays of slices, in the order of VTK's constants; None: linear."""
 
-_PARAMETERS = ("arrays", "isovalues", "progress", "threads", "triangles")  # of contour(), which are no options
+# Parameters that are no options, of contour(), and of slice_samples() and body().
+_OF_CONTOUR = ("arrays", "isovalues", "progress", "threads", "triangles")
+_OF_SLICES = ("arrays", "function", "interpolation", "normal", "offsets", "origin", "progress", "threads")
+OF_BODIES = ("arrays", "progress", "threads")
 
 
 def property_name(option: str) -> str:
@@ -58,11 +62,17 @@ def _listed(names: Iterable[str]) -> str:
     return f"{', '.join(others)} or {last}"
 
 
-def check_names(given: Iterable[str], names: Collection[str]) -> None:
-    """Raises TypeError for an option that is not among some."""
+def check_names(given: Iterable[str], names: Collection[str], parameters: Iterable[str] = ()) -> None:
+    """Raises TypeError for an option that is not among some. The message names further parameters of the call, too."""
     for name in given:
         if name not in names:
-            raise TypeError(f"unknown option {name}: {hint(name, names)}")
+            raise TypeError(f"unknown option {name}: {hint(name, [*names, *parameters])}")
+
+
+def parameters_of(function: Callable[..., Any]) -> list[str]:
+    """The names of the parameters of a method, without self and **options."""
+    return [each.name for each in inspect.signature(function).parameters.values()
+            if each.kind is not each.VAR_KEYWORD and each.name != "self"]
 
 
 def make_options(triangles: bool, given: Mapping[str, Any]) -> Options:
@@ -72,7 +82,7 @@ def make_options(triangles: bool, given: Mapping[str, Any]) -> Options:
     names = [*option_names(triangles), "gradient_direction"]
     for name, value in given.items():
         if name not in names:
-            raise _unknown_option(name, triangles)
+            raise unknown_option(name, triangles)
         if name == "compute_scalars":
             switch(name, value)
         elif name == "gradient_direction":
@@ -107,7 +117,7 @@ def make_probe_options(method: Any, outside: Any) -> ProbeOptions:
 def make_slice_options(given: Mapping[str, Any]) -> Options:
     """The options of the isosurface that is a slice. Raises TypeError for unknown options and ValueError for invalid
     values."""
-    check_names(given, SliceOptions.__annotations__)
+    check_names(given, SliceOptions.__annotations__, _OF_SLICES)
     options = make_options(True, {**given, "projection": None, "compute_normals": False})
     options.keep_hull_slivers = 1
     return options
@@ -126,13 +136,15 @@ def thread_count(threads: Optional[int]) -> int:
     return min(operator.index(threads), 2**31 - 1)
 
 
-def hint(name: str, names: Collection[str], further: Collection[str] = ()) -> str:
-    """The remedy for a name that is not among some: the nearest of these or of further ones, or all of these."""
-    near = difflib.get_close_matches(name, {*names, *further}, 1)
-    return f"did you mean {near[0]}?" if near else f"there are {', '.join(names)}"
+def hint(name: str, names: Iterable[str]) -> str:
+    """The remedy for a wrong name: the nearest of some, or all of these."""
+    others = [each for each in names if each != name]
+    near = difflib.get_close_matches(name, others, 1)
+    return f"did you mean {near[0]}?" if near else f"there are {', '.join(others)}"
 
 
-def _unknown_option(name: str, triangles: bool) -> TypeError:
+def unknown_option(name: str, triangles: bool, parameters: Iterable[str] = _OF_CONTOUR) -> TypeError:
+    """An error that names the options for triangles, or for points, and the parameters of the call."""
     if name in option_names(not triangles):
         return TypeError(f"{name} is an option of {'points' if triangles else 'triangles'} only")
     if name in ("contour_blocks", "use_all_cores"):
@@ -140,7 +152,7 @@ def _unknown_option(name: str, triangles: bool) -> TypeError:
         return TypeError(f"{name} is a property of the filters alone: {remedy}")
     names = [*option_names(triangles), "gradient_direction"]
     snake = re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower()
-    return TypeError(f"unknown option {name}: {hint(snake, names, set(_PARAMETERS) - {name})}")
+    return TypeError(f"unknown option {name}: {hint(snake, [*names, *parameters])}")
 
 
 def switch(name: str, value: Any) -> bool:
@@ -151,14 +163,14 @@ def switch(name: str, value: Any) -> bool:
 
 
 def number_of(name: str, value: Any, default: Any) -> Any:
-    """Converts a value to the type of the default, and the name of a constant to its number. The projection None is
-    "no_projection". Raises ValueError for other values."""
+    """Converts a value to the type of the default, and the name of a constant to its number. The projection None, or
+    "none", is "no_projection". Raises ValueError for other values."""
     if OPTION_TYPES.get(name) is bool:
         return int(switch(name, value))
     constants = CONSTANTS.get(name, {})
     kind = _listed(constants) if constants else "a real number" if isinstance(default, float) else "a whole number"
     error = ValueError(f"{name} cannot be {shown(value)}: it is {kind}")
-    if name == "projection" and value is None:
+    if name == "projection" and str(value).lower() == "none":
         value = "no_projection"
     if isinstance(value, str):
         value = constants.get(value.lower())

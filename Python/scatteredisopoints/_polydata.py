@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Isosurfaces as data of VTK or PyVista that share the arrays' memory."""
+"""Isosurfaces as data of VTK or PyVista."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import importlib
 import importlib.util
 import math
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Mapping, Optional
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional
 
 import numpy as np
 
@@ -40,7 +40,8 @@ class PolyDataMaker:
     def __getstate__(self) -> dict[str, Any]:
         return {**vars(self), "field_data": None}  # VTK's objects cannot be pickled
 
-    def __call__(self, surface: Isosurface) -> Any:
+    def __call__(self, surface: Isosurface, shares_memory: bool = False) -> Any:
+        """The data: a copy, unless nothing else uses the arrays' memory any more."""
         package = self.package or _installed_package()
         model = importlib.import_module(package + ".vtkCommonDataModel")
         core = importlib.import_module(package + ".vtkCommonCore")
@@ -57,29 +58,35 @@ class PolyDataMaker:
             result.SetData(ids(offsets), ids(corners.ravel()))
             return result
 
+        def arrays(named: Mapping[str, np.ndarray]) -> Iterator[Any]:
+            for name, array in named.items():
+                if shares_memory:
+                    array = array.view()
+                    array.flags.writeable = True
+                yield as_vtk(package, name, array)
+
         data = model.vtkPolyData()
         points = core.vtkPoints()
-        points.SetData(as_vtk(package, "Points", surface.points))
+        points.SetData(*arrays({"Points": surface.points}))
         data.SetPoints(points)
         if surface.triangles is not None:
             data.SetPolys(cells(surface.triangles))
         else:
             data.SetVerts(cells(np.arange(len(surface.points), dtype=np.int64)[:, None]))
         attributes = data.GetPointData()
-        for name, array in surface.arrays.items():
-            index = attributes.AddArray(as_vtk(package, name, array))
-            if name in self.uses:
-                attributes.SetActiveAttribute(index, self.uses[name])
+        for array in arrays(surface.arrays):
+            index = attributes.AddArray(array)
+            if array.GetName() in self.uses:
+                attributes.SetActiveAttribute(index, self.uses[array.GetName()])
         if self.scalars in surface.arrays:
             attributes.SetActiveScalars(self.scalars)
         if self.normals in surface.arrays:
             attributes.SetActiveNormals(self.normals)
-        for name, array in surface.splat_shapes.items():
-            shapes = as_vtk(package, name, array)
+        for shapes in arrays(surface.splat_shapes):
             shapes.GetInformation().Set(core.vtkAbstractArray.GUI_HIDE(), 1)
             data.GetCellData().AddArray(shapes)
-        for name, array in surface.cell_arrays.items():
-            data.GetCellData().AddArray(as_vtk(package, name, array))
+        for array in arrays(surface.cell_arrays):
+            data.GetCellData().AddArray(array)
         if "SplatAxis" in surface.splat_shapes:
             data.GetCellData().SetActiveVectors("SplatAxis")  # transforms of points rotate them
         if self.field_data is not None:
@@ -91,7 +98,7 @@ class PolyDataMaker:
 
 def as_vtk(package: str, name: str, array: np.ndarray) -> Any:
     """A VTK array that shares the memory and keeps it alive. Copies layouts that VTK does not have, and
-    read-only arrays, which numpy_to_vtk() refuses. Tensors become vectors."""
+    read-only arrays, into which VTK would write. Tensors become vectors."""
     support = importlib.import_module(package + ".util.numpy_support")
     table = array if array.ndim < 3 else array.reshape(len(array), math.prod(array.shape[1:]))
     result = support.numpy_to_vtk(np.require(table, requirements=["C", "W"]))

@@ -22,8 +22,8 @@ from ._bodies import body_with_warnings
 from ._cuts import three_numbers
 from ._derivatives import DERIVATIVES, names_of_derivatives
 from ._lines_and_grids import box_of, grid_in, line_between
-from ._option_types import BodyOptions, ContourOptions, Unpack
-from ._options import check_names, named, switch
+from ._option_types import BodyOptions, ContourOptions, SliceOptions, Unpack
+from ._options import check_names, named, parameters_of, switch, unknown_option
 from ._polydata import as_vtk
 from ._progress import Progress, shown_progress
 from ._samples import Samples
@@ -44,6 +44,10 @@ class ScatteredAccessor:
 
     def __init__(self, dataset: Any):
         self._dataset = dataset
+
+    def __repr__(self) -> str:
+        methods = [name for name in dir(self) if not name.startswith("_")]
+        return f"<scattered of a {type(self._dataset).__name__}: {', '.join(methods)}>"
 
     def contour(
         self,
@@ -89,9 +93,8 @@ class ScatteredAccessor:
         Notes
         -----
         The tree is kept unless ``keep_tree=False``: further isosurfaces of the same data take a fraction of
-        the time. After changes of the data set or its scalars that PyVista notices, such as ``mesh["a"] =
-        ...`` or ``mesh.points[0] = ...``, values or samples are loaded again; call ``mesh.Modified()`` after
-        other changes.
+        the time. After changes of points or arrays, also in memory that NumPy's arrays share, values or samples
+        are loaded again.
 
         Examples
         --------
@@ -103,8 +106,11 @@ class ScatteredAccessor:
         >>> surface.is_manifold
         True
         """
-        for name in options.keys() & _NAMES.keys():
-            raise TypeError(f"unknown option {name}: did you mean {_NAMES[name]}?")
+        for name in options:
+            if name in _NAMES:
+                raise TypeError(f"unknown option {name}: did you mean {_NAMES[name]}?")
+            if name not in ("arrays", *ContourOptions.__annotations__):
+                raise unknown_option(name, triangles, parameters_of(self.contour))
         keeps = options.get("keep_tree", True)
         with self._loaded(scalars, preference, progress_bar, threads, keeps) as samples:
             if isinstance(isosurfaces, (int, np.integer)) and not isinstance(isosurfaces, bool):
@@ -119,7 +125,7 @@ class ScatteredAccessor:
             else:
                 isosurfaces = levels_of("isosurfaces", isosurfaces)
             return samples._contour(isosurfaces, triangles, options.pop("arrays", None), threads, progress_bar, options,
-                                    stacklevel=3).polydata
+                                    stacklevel=3)._into_polydata()
 
     def body(
         self,
@@ -144,9 +150,10 @@ class ScatteredAccessor:
         pyvista.PolyData
             Closed triangles between samples, with their arrays.
         """
+        check_names(options, BodyOptions.__annotations__, parameters_of(self.body))
         with self._samples_with(scalars, preference, progress_bar, threads, needs_arrays=False) as (samples, arrays):
             return body_with_warnings(samples, None if scalars is None else arrays, threads, progress_bar, options,
-                                      stacklevel=3).polydata
+                                      stacklevel=3)._into_polydata()
 
     def splats(self, scale: float = 1.0, *, threads: Optional[int] = None) -> pv.PolyData:
         """Turn isopoints into polygons that show them as a closed surface.
@@ -190,7 +197,7 @@ class ScatteredAccessor:
         Parameters
         ----------
         where : pyvista.DataSet | array_like[float]
-            Points, or a data set, at its points.
+            Points, or one, or a data set, at its points.
         scalars : str | sequence[str] | array_like[float], optional
             Names of arrays of points or cells, or numbers for each of them. By default all arrays of
             ``preference``, or else of the others.
@@ -239,7 +246,8 @@ class ScatteredAccessor:
             raise ValueError(f"resolution cannot be {resolution!r}: it is a whole number, 1 or more")
         points, distances = line_between(begin, end, operator.index(resolution))
         line = pv.PolyData(points, lines=[len(points), *range(len(points))])
-        return self._probe(line, scalars, **_options_of_probe(options), computed={"Distance": distances})
+        options = _options_of_probe(options, self.sample_over_line)
+        return self._probe(line, scalars, **options, computed={"Distance": distances})
 
     def to_grid(
         self,
@@ -269,7 +277,8 @@ class ScatteredAccessor:
             The grid, with the arrays.
         """
         box = box_of(_datasets.bounds_of(self._checked()).ravel() if bounds is None else bounds)
-        return self._probe(pv.ImageData(**grid_in(box, dimensions, spacing)), scalars, **_options_of_probe(options))
+        options = _options_of_probe(options, self.to_grid)
+        return self._probe(pv.ImageData(**grid_in(box, dimensions, spacing)), scalars, **options)
 
     def slice(
         self,
@@ -312,6 +321,7 @@ class ScatteredAccessor:
         """
         if plane is not None:
             raise TypeError("plane is not supported: give its normal and its origin")
+        _check_slice_options(options, self.slice)
         return self._slice(normal, origin, None, contour, progress_bar, options)
 
     def slice_orthogonal(
@@ -338,6 +348,7 @@ class ScatteredAccessor:
         pyvista.MultiBlock
             The slices ``YZ``, ``XZ`` and ``XY``.
         """
+        _check_slice_options(options, self.slice_orthogonal)
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             slices = {name: self._slice(axis, None if at is None else 3 * [at], None, contour, progress_bar, options)
@@ -370,6 +381,7 @@ class ScatteredAccessor:
         """
         if implicit_function is None:
             raise TypeError("implicit_function is missing")
+        _check_slice_options(options, self.slice_implicit)
         return self._slice(None, None, implicit_function, contour, progress_bar, options)
 
     def _slice(self, normal: Any, origin: Any, function: Any, contour: bool, progress: Progress,
@@ -381,7 +393,7 @@ class ScatteredAccessor:
         with self._samples_with(scalars, preference, progress, threads, needs_arrays=False) as (samples, arrays):
             result = slice_with_warnings(
                 samples, normal, origin, None if scalars is None else arrays, function, offsets, interpolation, threads,
-                progress, options, stacklevel=4).polydata
+                progress, options, stacklevel=4)._into_polydata()
         if not (switch("contour", contour) and result.n_cells):
             return result
         try:
@@ -450,15 +462,17 @@ class ScatteredAccessor:
                computed: Optional[Mapping[str, np.ndarray]] = None) -> Any:
         """probe(), with further arrays that are computed."""
         data = _datasets.data_object(where)
-        places = pv.PolyData(_datasets.place_positions(where).copy()) if data is None else data
+        places = pv.PolyData(_datasets.place_positions(where)[0].copy()) if data is None else data
         with self._samples_with(scalars, preference, progress_bar, threads) as (samples, arrays):
             found = samples._probe(places, arrays, gradient, method, outside, threads, progress_bar, stacklevel=4)
-            differing = samples._differing if scalars is None else ()
+            differing, of_text = (samples._differing, samples._of_text) if scalars is None else ((), ())
         values, gradients = found if gradient else (found, {})
         computed = {**{name + "_gradient": array for name, array in gradients.items()}, **(computed or {})}
         _warn_of_replaced(computed, values, stacklevel=4)
         if differing:
             warnings.warn(_datasets.describe_differing(differing), RuntimeWarning, stacklevel=3)
+        if of_text:
+            warnings.warn(_datasets.describe_text(of_text), RuntimeWarning, stacklevel=3)
         result = pv.wrap(places).copy(deep=False)
         _add_arrays(result.point_data, {**values, **computed})
         return result
@@ -481,7 +495,7 @@ class ScatteredAccessor:
                     _datasets.samples_with_arrays(data, names, associations))
 
         choice = "without values", is_any, *names, *associations
-        with _kept_samples(data, choice, find, progress, threads, True) as samples:
+        with _kept_samples(data, choice, None, find, progress, threads, True) as samples:
             if scalars is None:
                 uses = samples._maker.uses
                 names = [name for name in samples._arrays or {} if uses.get(name) != _datasets.PEDIGREE_IDS]
@@ -502,7 +516,7 @@ class ScatteredAccessor:
             scalars, associations = _active_scalars(data)
         if not isinstance(scalars, str):
             return contextlib.nullcontext(Samples(data, scalars, threads=threads, progress=progress))
-        return _kept_samples(data, (scalars, *associations),
+        return _kept_samples(data, (scalars, *associations), scalars,
                              lambda: _datasets.samples_with_values(data, scalars, associations), progress, threads,
                              keeps)
 
@@ -518,11 +532,17 @@ def _associations(preference: str) -> tuple[int, ...]:
     return named("preference", preference, {"point": (POINT, CELL), "cell": (CELL, POINT)})
 
 
-def _options_of_probe(given: Mapping[str, Any]) -> dict[str, Any]:
+def _check_slice_options(given: Mapping[str, Any], method: Callable[..., Any]) -> None:
+    """Raises TypeError for an option that slices do not have."""
+    names = *SliceOptions.__annotations__, "interpolation", "offsets", "preference", "scalars", "threads"
+    check_names(given, names, parameters_of(method))
+
+
+def _options_of_probe(given: Mapping[str, Any], method: Callable[..., Any]) -> dict[str, Any]:
     """All of ScatteredAccessor.probe(), with defaults. Raises TypeError if it has no such one."""
     parameters = inspect.signature(ScatteredAccessor.probe).parameters.values()
     options = {each.name: each.default for each in parameters if each.kind is each.KEYWORD_ONLY}
-    check_names(given, options)
+    check_names(given, options, parameters_of(method))
     return {**options, **given}
 
 
@@ -566,11 +586,11 @@ def _renew_lock() -> None:
 
 
 @contextlib.contextmanager
-def _kept_samples(data: Any, choice: tuple, find: Callable[[], _datasets.DataSamples], progress: Progress,
-                  threads: Optional[int], keeps: bool) -> Iterator[Samples]:
+def _kept_samples(data: Any, choice: tuple, values: Optional[str], find: Callable[[], _datasets.DataSamples],
+                  progress: Progress, threads: Optional[int], keeps: bool) -> Iterator[Samples]:
     """The samples of a data set that a function finds for a choice of arrays; reuses those of the last call, or
     their tree. No other call gets them meanwhile. Keeps them for the next one if wanted."""
-    id_, key = id(data), (choice, _datasets.state_of(data))
+    id_, key = id(data), (choice, _datasets.contents_of(data, values))
     with _lock:
         kept = _kept.pop(id_, None)
     samples = kept[2] if kept is not None and kept[0]() is data else None

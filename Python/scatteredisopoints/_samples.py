@@ -17,7 +17,7 @@ import numpy as np
 from . import _datasets, _library
 from ._arrays import (
     are_names, as_numpy, by_name, checked_tensors, describe_masked, further_arrays, levels_of, positions_of, readable,
-    values_of)
+    values_of, without_text)
 from ._bodies import body_with_warnings
 from ._cuts import Normal
 from ._interpolator import Interpolator
@@ -119,7 +119,7 @@ class Samples:
         self._center: Optional[np.ndarray] = None
         self._arrays, self._maker = samples.arrays, samples.maker
         self._without_array, self._name = samples.without_array, samples.name
-        self._differing = samples.differing
+        self._differing, self._of_text = samples.differing, samples.of_text
         self._association = samples.association
         self._load(samples.values, samples.masked, samples.are_float, **callbacks)
 
@@ -207,8 +207,8 @@ class Samples:
         self._loaded_key = None
         positions = positions_of(self._current("positions", self._positions))
         masks = [each for each in left_out if each is not None]
-        name = f"negated {self._name or 'values'}" if key == -1 else self._name
-        _library.run(_library.set_value_name, self._extractor, name.encode(errors="replace"))
+        _library.run(_library.set_value_name, self._extractor, self._name.encode(errors="replace"))
+        _library.run(_library.set_values_negated, self._extractor, int(key == -1))
         _library.run_with(
             _library.Callbacks(**callbacks), self._extractor, _library.set_samples, positions, numbers,
             np.any(masks, axis=0).view(np.uint8) if masks else None)
@@ -258,10 +258,12 @@ class Samples:
         return self._contour(isovalues, triangles, arrays, threads, progress, options, stacklevel=3)
 
     def _contour(self, isovalues, triangles, arrays, threads, progress, options, stacklevel) -> Isosurface:
+        arrays, of_text = without_text(arrays)
         with shown_progress(progress, "Contouring") as report:
             extracted = self._extract(isovalues, triangles, arrays, options, threads, progress=report)
-        isosurface = extracted.isosurface
-        for text in [*(message.text for message in extracted.messages), *describe_not_finite(isosurface.arrays)]:
+        isosurface, of_text = extracted.isosurface, [*of_text, *self._of_text]
+        for text in [*(message.text for message in extracted.messages), *describe_not_finite(isosurface.arrays),
+                     *([_datasets.describe_text(of_text)] if of_text else [])]:
             warnings.warn(text, RuntimeWarning, stacklevel=stacklevel)
         return isosurface
 
@@ -405,16 +407,20 @@ class Samples:
         is_nearest = chosen.method == CONSTANTS["method"]["nearest"]
         if with_gradients and is_nearest:
             raise ValueError('the method "nearest" has no gradients: use another one')
+        arrays, of_text = without_text(arrays)
         many = by_name(arrays)
-        points = _datasets.place_positions(places)
+        points, shape = _datasets.place_positions(places)
         with shown_progress(progress, "Probing") as report, self._in_call(threads):
             numbers = {name: self._numbers_of(array, name) for name, array in many.items()}
             values, gradients, kinds = self._probed(points, numbers, chosen, with_gradients, report)
-            texts = [*self._describe_left_out(), *_describe_flat(kinds)]
+            texts = [*self._describe_left_out(), *_describe_flat(kinds),
+                     *([_datasets.describe_text(of_text)] if of_text else [])]
             for name, array in many.items() if seeks_gaps else ():
                 texts += self._describe_gaps(name, array, numbers[name])
         for text in texts:
             warnings.warn(text, RuntimeWarning, stacklevel=stacklevel)
+        for found in (values, gradients) if with_gradients else (values,):
+            found.update({name: array.reshape(shape + array.shape[1:]) for name, array in found.items()})
         if not (isinstance(arrays, Mapping) or are_names(arrays)):
             (values,), (gradients,) = values.values(), gradients.values()
         return (values, gradients) if with_gradients else values

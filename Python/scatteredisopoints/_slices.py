@@ -6,12 +6,12 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Mapping, Optional
+from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence
 
 import numpy as np
 
 from . import _datasets, _library
-from ._arrays import as_numpy, levels_of, readable
+from ._arrays import as_numpy, levels_of, readable, without_text
 from ._cuts import Cut, Normal, make_cut, rounded, shares_to_zero
 from ._isosurface import Isosurface, describe_not_finite
 from ._options import INTERPOLATIONS, make_probe_options, make_slice_options, named
@@ -32,18 +32,22 @@ def slice_with_warnings(
     if any(map(math.isnan, levels)):
         raise ValueError("An offset is not a number. Choose numbers as offsets.")
     chosen = make_slice_options(options)
+    arrays, of_text = without_text(arrays)
     with shown_progress(progress, "Slicing") as report:
         made, messages = compute_slice(samples, cut, levels, chosen, arrays, method, threads, report)
-    warn_of(samples, made, messages, arrays is None, stacklevel + 1)
+    warn_of(samples, made, messages, arrays is None, of_text, stacklevel + 1)
     return made
 
 
 def warn_of(samples: Samples, isosurface: Isosurface, messages: list[_library.Message], has_all_arrays: bool,
-            stacklevel: int) -> None:
+            of_text: Sequence[str], stacklevel: int) -> None:
     """Warns by messages, and of arrays that are left out or not finite."""
     texts = [*(message.text for message in messages), *describe_not_finite(isosurface.arrays)]
     if has_all_arrays and samples._differing:
         texts.append(_datasets.describe_differing(samples._differing))
+    of_text = samples._of_text if has_all_arrays else of_text
+    if of_text:
+        texts.append(_datasets.describe_text(of_text))
     for text in texts:
         warnings.warn(text, RuntimeWarning, stacklevel=stacklevel)
 

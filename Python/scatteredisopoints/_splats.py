@@ -28,7 +28,7 @@ class NoNormalsError(ValueError):
     """Points have no normals."""
 
     def __init__(self):
-        super().__init__("The points have no normals: extract them with ComputeNormals.")
+        super().__init__("The points have no normals: extract them with compute_normals.")
 
 
 def polygons_of(
@@ -69,8 +69,9 @@ def polygons_of(
         points, arrays={**arrays, "Normals": normals.astype(np.float32), POINT_IDS: np.arange(len(points))},
         splat_shapes={"SplatAxis": axes.astype(np.float32), "SplatPolygon": polygons}, make_polydata=maker)
     splats = isopoints._splats(scale, threads, **callbacks)
-    _add_cell_arrays(splats, data, cell_of_point)
-    return splats.polydata, problem
+    polygons = splats._into_polydata()
+    _add_cell_arrays(polygons, splats, data, cell_of_point)
+    return polygons, problem
 
 
 def _is_kept(array: Any, normals: Any) -> bool:
@@ -79,13 +80,13 @@ def _is_kept(array: Any, normals: Any) -> bool:
         "Normals", "SplatAxis", "SplatPolygon", POINT_IDS, CELL_IDS)
 
 
-def _add_cell_arrays(splats: Isosurface, data: Any, cell_of_point: np.ndarray) -> None:
-    """Gives triangles the arrays of their points' cells, if all points have cells."""
+def _add_cell_arrays(polygons: Any, splats: Isosurface, data: Any, cell_of_point: np.ndarray) -> None:
+    """Gives the polygons of splats the arrays of their points' cells, if all points have cells."""
     assert splats.triangles is not None
     cells = cell_of_point[splats.arrays[POINT_IDS][splats.triangles[:, 0]]]
     if (cells < 0).any():
         return
-    attributes, package = splats.polydata.GetCellData(), package_of(data)
+    attributes, package = polygons.GetCellData(), package_of(data)
     for name, array, use in named_arrays(data.GetCellData()):
         if _is_kept(array, data.GetCellData().GetNormals()):
             index = attributes.AddArray(as_vtk(package, name, as_numpy(array)[cells]))
@@ -127,7 +128,7 @@ def _take_shapes(
     axis = _numbers(shapes.GetArray("SplatAxis"), count, 3)
     if polygon is None:
         return ('The array "SplatPolygon" has not 40 components for each vertex cell: splats are octagons of the'
-                " points' radii. Use the array as vtkScatteredIsopointFilter writes it."
+                " points' radii. Keep the array as it was extracted."
                 if shapes.HasArray("SplatPolygon") else "")
     if axis is None:
         return ('The array "SplatPolygon" has no array "SplatAxis" of three components beside it: splats are'

@@ -19,7 +19,7 @@ from ._options import CONSTANTS, option_names, property_name
 from ._samples import Extracted
 from ._splats import NoNormalsError, polygons_of
 from ._vtk_algorithm import (
-    Algorithm, ContourValues, ScatteredAlgorithm, fill, with_counts, with_properties)
+    Algorithm, ContourValues, ScatteredAlgorithm, fill, in_properties, with_counts, with_properties)
 from ._vtk_body import vtkScatteredBodyFilter as vtkScatteredBodyFilter
 from ._vtk_gradient import vtkScatteredGradientFilter as vtkScatteredGradientFilter
 from ._vtk_probe import vtkScatteredGridFilter as vtkScatteredGridFilter
@@ -47,7 +47,7 @@ class _Contour(ContourValues, ScatteredAlgorithm):
             return self._contour_blocks(data, output)
         self._kept = {0: self._kept[0]} if 0 in self._kept else {}
         extracted = self._contour_one(data, 0, (0.0, 1.0))
-        output.ShallowCopy(extracted.isosurface.polydata)
+        output.ShallowCopy(extracted.isosurface._into_polydata())
         return extracted.messages
 
     def _contour_blocks(self, data: Any, output: Any) -> list[_library.Message]:
@@ -59,7 +59,7 @@ class _Contour(ContourValues, ScatteredAlgorithm):
         def contour(block: Any, number: int) -> Optional[vtkPolyData]:
             try:
                 found[number] = self._contour_one(block, number, (number / count, (number + 1) / count))
-                return found[number].isosurface.polydata
+                return found[number].isosurface._into_polydata()
             except _datasets.NoSamplesError as error:
                 lacking.append(error)
                 return None
@@ -165,7 +165,7 @@ class vtkIsopointSplatPolygons(Algorithm):
         else:
             self._make_blocks(data, output, problems)
         for problem in sorted(problems):
-            self._report("WarningEvent", problem)
+            self._report("WarningEvent", in_properties(problem))
 
     def _make_blocks(self, data: Any, output: Any, problems: set[str]) -> None:
         """Blocks without normals have no polygons, which is an error only if no block has normals."""

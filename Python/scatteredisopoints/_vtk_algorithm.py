@@ -284,7 +284,7 @@ class ScatteredAlgorithm(Algorithm):
     def _finish(self, samples: Samples, made: Isosurface, messages: list[_library.Message], output: Any
                 ) -> list[_library.Message]:
         """Fills the output and counts with triangles. Returns all messages."""
-        output.ShallowCopy(made.polydata)
+        output.ShallowCopy(made._into_polydata())
         self._count_samples(samples)
         self._counts["ExtractedPoints"] = len(made)
         return [*messages, *describe_left_out(

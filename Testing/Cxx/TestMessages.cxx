@@ -254,7 +254,7 @@ TEST(Messages, PointsThatNoFitMovesAreCountedWhereTheyAreMost)
   const std::string points = std::to_string(filter->GetOutput()->GetNumberOfPoints());
   expectOne(
     warnings, { "No fit", std::to_string(filter->GetNumberOfUnprojectedPoints()) + " of " + points,
-                "turn Projection off" });
+                "set Projection to none" });
   EXPECT_EQ(filter->GetNumberOfExtractedPoints(), filter->GetOutput()->GetNumberOfPoints());
   filter->SetProjection(Isopoints::NO_PROJECTION);
   filter->ComputeSplatsOff();

@@ -401,6 +401,35 @@ TEST(Library, MessagesHaveTheKeyOfTheirCause)
   EXPECT_EQ(isopoint_get_message_cause(nullptr, 0), nullptr);
 }
 
+// Messages about negated values have the user's numbers, ascending.
+TEST(Library, MessagesAboutNegatedValues)
+{
+  Cloud cloud;
+  const auto messageAt = [&](const std::vector<double>& isovalues, const isopoint_options& options)
+  {
+    const Extractor extractor(cloud);
+    EXPECT_EQ(isopoint_set_values_negated(extractor.get(), 1), ISOPOINT_OK);
+    const Surface surface = extractor.extract(isovalues, options);
+    const char* const text = isopoint_get_message(surface.get(), 0, nullptr);
+    return std::string(text ? text : "");
+  };
+  const isopoint_options withCaps =
+    optionsWith([](isopoint_options& options) { options.triangles = options.capping = 1; });
+  const std::size_t half = cloud.values.size() / 2;
+  std::fill_n(cloud.values.begin(), half, -7.0);
+  std::fill_n(cloud.values.rbegin(), half, -2.0);
+  const std::string range = "the array is from 2 to 7. Choose isovalues that are ";
+  EXPECT_EQ(messageAt({ -9.0, 0.0, 1.0 }, withTriangles),
+    "No isosurface at -1, 0, 9: " + range + "greater than 2 and less than 7.");
+  EXPECT_EQ(
+    messageAt({ -9.0 }, defaults), "No isosurface at 9: " + range + "less than 7, down to 2.");
+  EXPECT_EQ(messageAt({ -1.0 }, withCaps), "No isosurface at 1: " + range + "greater than 2.");
+  cloud.values.assign(cloud.values.size(), -2.0);
+  EXPECT_EQ(messageAt({ -1.0 }, withCaps),
+    "No isosurface: all values of the array are 2. Choose another array, or a higher isovalue.");
+  EXPECT_EQ(isopoint_set_values_negated(nullptr, 1), ISOPOINT_INVALID_ARGUMENT);
+}
+
 // Of two blocks one has the first isovalue, the other one has the second, and none has the third.
 TEST(Library, MessagesAreJoined)
 {

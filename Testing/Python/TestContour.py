@@ -159,8 +159,9 @@ class ContourTest(unittest.TestCase):
         self.assertEqual(again.pieces, cube.pieces)
         ball, = contour(positions, np.minimum(distance, far + 0.06), 0.2, triangles=True, minimum_piece_size=0.9).pieces
         self.assertLess(ball.volume, 0)  # without caps a size counts, but no sign
-        with self.assertRaisesRegex(ValueError, "Points have no area: extract triangles"):
-            contour(positions, distance, 0.2).pieces
+        for name, text in (("area", "area"), ("volume", "volume"), ("pieces", "pieces"), ("region_ids", "pieces")):
+            with self.assertRaisesRegex(ValueError, f"Points have no {text}: extract triangles"):
+                getattr(contour(positions, distance, 0.2), name)
         with self.assertRaisesRegex(ValueError, "minimum_piece_size is 2, which is out of range"):
             contour(positions, distance, 0.2, triangles=True, minimum_piece_size=2.0)
 
@@ -244,14 +245,14 @@ class ContourTest(unittest.TestCase):
         np.testing.assert_array_equal(kept.contour(0.3).points, before.points)
         self.assertGreater(contour(cloud_of(positions, distance), None, 0.3, gradient_direction="ascent",
                                    triangles=True).volume, 0)
-        with self.assertWarnsRegex(RuntimeWarning, 'No isosurface at -3: "negated values" is from .* to -'):
+        with self.assertWarnsRegex(RuntimeWarning, "No isosurface at 3: the array is from 0.0.* down to 0.0"):
             kept.contour(3.0, gradient_direction="ascent")
         with self.assertWarnsRegex(RuntimeWarning, "No isosurface at 3: the array is from"):
             kept.contour(3.0)
-        with self.assertWarnsRegex(RuntimeWarning, 'No isosurface at -3: "negated f" is from'):
+        with self.assertWarnsRegex(RuntimeWarning, 'No isosurface at 3: "f" is from 0.0'):
             contour(cloud_of(positions, distance, "f"), "f", 3.0, gradient_direction="ascent")
         apart = np.vstack([positions, positions + 100.0])
-        with self.assertWarnsRegex(RuntimeWarning, 'No isosurface at -0.5 of "negated values": all of it is'):
+        with self.assertWarnsRegex(RuntimeWarning, "No isosurface at 0.5: all of it is"):
             contour(apart, np.repeat([0.0, 1.0], len(positions)), 0.5, triangles=True, gradient_direction="ascent")
         np.testing.assert_array_equal(kept.contour(0.3, gradient_direction="ASCENT").points, outwards.points)
         with self.assertRaisesRegex(ValueError, "gradient_direction cannot be 'up': it is \"descent\" or"):
@@ -279,13 +280,19 @@ class ContourTest(unittest.TestCase):
         self.assertEqual(result.points.tobytes(), kept.points.tobytes())
         self.assertEqual(data.GetPointData().GetNumberOfArrays(), 0)
 
-    def test_memory_is_shared(self):
-        result = contour(*samples(), 0.3)
-        points = result.points
-        points[0] = 7.0
-        self.assertEqual(result.polydata.GetPoint(0), (7.0, 7.0, 7.0))
-        del result  # the memory lives on
-        self.assertEqual(points[0].tolist(), [7.0, 7.0, 7.0])
+    def test_data_are_copies(self):
+        """VTK writes into read-only memory."""
+        result = contour(*samples(), 0.3, triangles=True)
+        area, points, data = result.area, result.points.copy(), result.polydata
+        self.assertIs(data, result.polydata)
+        for array in (data.GetPoints().GetData(), data.GetPointData().GetArray("values")):
+            vtk_to_numpy(array)[:] = 7.0
+        np.testing.assert_array_equal(result.points, points)
+        self.assertEqual(set(result.arrays["values"]), {0.3})
+        result.points = 2 * points
+        self.assertAlmostEqual(result.area / area, 4)
+        self.assertEqual(result.polydata.GetPoint(0), tuple(2 * points[0]))
+        self.assertIsNone(result.polydata.GetPointData().GetNormals())
 
     def test_data_sets(self):
         positions, values = samples()
@@ -379,6 +386,10 @@ class ContourTest(unittest.TestCase):
         self.assertEqual(section.arrays["tensors"].shape, (len(section), 3, 3))
         found = vtk_to_numpy(section.polydata.GetPointData().GetArray("tensors"))
         np.testing.assert_array_equal(found, section.arrays["tensors"].reshape(-1, 9))
+        points = contour(*samples(), 0.3, arrays={"tensors": tensors, "numbers": tensors.reshape(-1, 9)})
+        for surface in (points, points.splats()):
+            expected = surface.arrays["numbers"].reshape(-1, 3, 3)
+            np.testing.assert_array_equal(surface.arrays["tensors"], expected)
 
     def test_all_compiled_classes_are_exported(self):
         modules = map(scatteredisopoints._module, scatteredisopoints._COMPILED)

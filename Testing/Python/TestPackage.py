@@ -260,7 +260,7 @@ class Results(unittest.TestCase):
         for wrong in ("a", None, [1.0, 2.0]):
             with self.assertRaisesRegex(ValueError, "scale cannot be .*: it is a real number"):
                 surface.splats(wrong)
-        for wrong in (np.ones((len(surface), 2, 3)), np.ones(3)):
+        for wrong in (np.ones((len(surface), 0)), np.ones(3)):
             surface.arrays["wrong"] = wrong
             with self.assertRaisesRegex(ValueError, "wrong have the shape"):
                 surface.splats()
@@ -271,13 +271,12 @@ class Results(unittest.TestCase):
         arrays = surface.points, surface.normals, *surface.splat_shapes.values()
         for name, changed in (("swapped bytes", lambda array: array.astype(array.dtype.newbyteorder())),
                               ("columns", lambda array: np.repeat(array, 2, axis=1)[:, ::2]),
-                              ("Fortran's order", np.asfortranarray), ("read-only", lambda array: array)):
-            surface.points, surface.arrays["Normals"], *shapes = map(changed, arrays)
-            surface.splat_shapes = dict(zip(surface.splat_shapes, shapes))
-            for array in (surface.points, *shapes):
-                array.flags.writeable = name != "read-only"
+                              ("Fortran's order", np.asfortranarray)):
+            points, normals, *shapes = map(changed, arrays)
+            other = Isosurface(points, arrays={**surface.arrays, "Normals": normals},
+                               splat_shapes=dict(zip(surface.splat_shapes, shapes)))
             with self.subTest(name):
-                self.assertTrue(contents(surface.splats()) == expected)
+                self.assertTrue(contents(other.splats()) == expected)
 
     def test_arrays_live_as_long_as_calls(self):
         """What the library reads is passed as an array of NumPy, which its description keeps alive."""
@@ -353,8 +352,39 @@ class Results(unittest.TestCase):
         gc.collect()
         other = [contour(*cloud(seed=seed), 0.3) for seed in range(2, 6)]
         np.testing.assert_array_equal(points, expected)
-        points[0] = 7.0  # may be written
         self.assertEqual(len(other), 4)
+
+    def test_points_are_read_only_unless_assigned(self):
+        """Areas and volumes are computed once."""
+        positions, values = cloud()
+        arrays = {"place": positions, "Radius": values}
+        surface = contour(positions, values, (0.3, 0.4), triangles=True, arrays=arrays, compute_gradients=True)
+        area, volume, pieces = surface.area, surface.volume, surface.pieces
+        for each in (surface, pickle.loads(pickle.dumps(surface))):
+            for array in (each.points, each.triangles, each.region_ids, *each.arrays.values()):
+                with self.assertRaisesRegex(ValueError, "read-only"):
+                    array *= 2
+            with self.assertRaises(AttributeError):
+                each.triangles = surface.triangles
+            doubled = 2 * each.points
+            each.points = doubled
+            doubled[:] = 7.0
+            np.testing.assert_allclose(each.area, 4 * area)
+            np.testing.assert_allclose(each.volume, 8 * volume)
+            self.assertAlmostEqual(each.pieces[0].area / pieces[0].area, 4)
+            self.assertEqual((list(each.arrays), each.normals), (["place", "Radius", "values", "Gradients"], None))
+        points = contour(positions, values, 0.3)
+        points.points = points.points + 1
+        self.assertEqual((list(points.arrays), points.radii), (["values"], None))
+        with self.assertRaisesRegex(ValueError, "no splats"):
+            points.splats()
+        own = contour(positions, values, 0.3, arrays={"Normals": positions}, compute_normals=False, triangles=True)
+        own.points = own.points.astype(np.float32).tolist()
+        self.assertEqual(own.arrays.keys(), {"Normals", "values"})
+        for wrong, text in ((own.points[1:], "points have the shape .*: give one for each"),
+                            (own.points[:, :2], r"points have the shape .*, not \(n, 3\)")):
+            with self.assertRaisesRegex(ValueError, text):
+                own.points = wrong
 
     def test_nothing_to_see(self):
         positions, values = cloud(500)
@@ -386,6 +416,8 @@ class Results(unittest.TestCase):
         self.assertEqual({*_option_types.ContourOptions.__annotations__}, of_library | of_python)
         self.assertEqual({*_options.option_names(False), *_options.option_names(True)},
                          of_library | of_python - {"gradient_direction"})
+        for none in (None, "none", "None", "no_projection"):  # as messages advise
+            self.assertEqual(_options.make_options(True, {"projection": none}).projection, 0)
         for function in (contour, scatteredisopoints.body, scatteredisopoints.slice_samples, Samples.contour):
             self.assertIn("options", typing.get_type_hints(function))
 
@@ -413,7 +445,10 @@ class Results(unittest.TestCase):
             self.assertEqual([each.name for each in path.parent.iterdir()], ["surface.npz"])
         with mock.patch.dict(sys.modules, trimesh=mock.MagicMock()) as modules:
             self.assertIs(surface.to_trimesh(), modules["trimesh"].Trimesh.return_value)
-            modules["trimesh"].Trimesh.assert_called_once_with(surface.points, surface.triangles, process=False)
+            for given, expected in zip(modules["trimesh"].Trimesh.call_args.args, (surface.points, surface.triangles)):
+                np.testing.assert_array_equal(given, expected)
+                self.assertTrue(given.flags.writeable)
+            self.assertEqual(modules["trimesh"].Trimesh.call_args.kwargs, {"process": False})
         with mock.patch.dict(sys.modules, trimesh=None, pyvista=None):
             for method, name in ((surface.to_trimesh, "trimesh"), (surface.to_pyvista, "pyvista")):
                 with self.assertRaisesRegex(ImportError, f"{name}.*: pip install {name}$"):

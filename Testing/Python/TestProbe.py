@@ -8,7 +8,7 @@ import unittest
 import warnings
 
 import numpy as np
-from scatteredisopoints import Samples, contour, gradient, probe
+from scatteredisopoints import Samples, body, contour, gradient, probe, slice_samples
 
 RANDOM = np.random.default_rng(1)
 POSITIONS = RANDOM.uniform(-1, 1, (6000, 3))
@@ -85,6 +85,36 @@ class Values(unittest.TestCase):
             np.testing.assert_array_equal(gradient(POSITIONS, arrays)[name], gradient(POSITIONS, array))
         self.assertEqual(list(gradients), ["a", "b"])
         self.assertEqual(probe(POSITIONS, {}, PLACES), {})
+
+    def test_places_of_all_shapes(self):
+        """As those of interpolators: the last axis has the coordinates. No places have any shape."""
+        for array in (POSITIONS[:, 0], POSITIONS):
+            expected = probe(POSITIONS, array, PLACES[:6], gradient=True)
+            function = Samples(POSITIONS, array[:, 0] if array.ndim > 1 else array).interpolator(array)
+            for places, shape in ((PLACES[:6].reshape(2, 3, 3), (2, 3)), (PLACES[0], ()), (PLACES[0].tolist(), ()),
+                                  ([], (0,)), (PLACES[:0], (0,)), (PLACES[:0].reshape(2, 0, 3), (2, 0))):
+                found = probe(POSITIONS, {"a": array}, places, gradient=True)
+                for each, of_all, call in zip(found, expected, (function, function.gradient)):
+                    of_some = of_all[:each["a"].size // of_all[0].size].reshape(shape + of_all.shape[1:])
+                    self.assertEqual(each["a"].shape, of_some.shape)
+                    np.testing.assert_array_equal(each["a"], of_some)
+                    np.testing.assert_array_equal(call(places), of_some)
+
+    def test_text_is_left_out(self):
+        """With a warning: columns of tables go in as they are."""
+        words = np.array(["word"] * len(POSITIONS))
+        text = '^Left out are "words", "objects", "times": they hold no numbers.$'
+        arrays = {"words": words, "x": POSITIONS[:, 0], "objects": words.astype(object),
+                  "times": np.zeros(len(POSITIONS), "M8[s]")}
+        for call in (lambda: probe(POSITIONS, arrays, PLACES), lambda: body(POSITIONS, arrays=arrays).arrays,
+                     lambda: slice_samples(POSITIONS, arrays=arrays).arrays,
+                     lambda: contour(POSITIONS, arrays["x"], 0.5, arrays=arrays, compute_scalars=False,
+                                     compute_normals=False, compute_splats=False).arrays):
+            with self.assertWarnsRegex(RuntimeWarning, text) as caught:
+                found = call()
+            self.assertEqual((list(found), caught.filename), (["x"], __file__))
+        with self.assertRaisesRegex(TypeError, "objects are of the type object, not real numbers"):
+            probe(POSITIONS, {"objects": np.full(len(POSITIONS), None)}, PLACES)
 
     def test_layouts_make_no_difference(self):
         array = np.sin(POSITIONS)
@@ -177,6 +207,7 @@ class KeptSamples(unittest.TestCase):
         samples = Samples(POSITIONS, POSITIONS @ [1, 2, 3])
         x, y, z = grid = np.meshgrid([0.1, 0.2], [0.3], [0.1, 0.2, 0.4], indexing="ij")
         plane, place = samples.interpolator(), samples.interpolator(POSITIONS, method="CUBIC", outside=0)
+        self.assertEqual(repr(plane), "<Interpolator: \"values\" of 6000 samples, method 'blend'>")
         np.testing.assert_allclose(plane(*grid), x + 2 * y + 3 * z)
         np.testing.assert_allclose(plane(0.1, 0.2, [0.3, 0.4]), [1.4, 1.7])
         np.testing.assert_allclose(plane.gradient([0.1, 0.2, 0.3]), [1, 2, 3])
@@ -204,7 +235,7 @@ class Calls(unittest.TestCase):
         values = POSITIONS[:, 0]
         for arguments, error, text in (
                 ((POSITIONS, values, PLACES[:, :2]), ValueError, r"places.*\(300, 2\).*zeros"),
-                ((POSITIONS, values, PLACES[0]), ValueError, r"places.*\(3,\)"),
+                ((POSITIONS, values, PLACES[0, :2]), ValueError, r"places.*\(2,\), not \(..., 3\)"),
                 ((POSITIONS, values[:9], PLACES), ValueError, r"values.*\(9,\).*6000"),
                 ((POSITIONS, {"a": values, "b": values[:9]}, PLACES), ValueError, r"b have.*\(9,\)"),
                 ((POSITIONS, None, PLACES), TypeError, "values are missing"),

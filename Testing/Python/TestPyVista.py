@@ -3,6 +3,8 @@
 
 import doctest
 import gc
+import pathlib
+import re
 import unittest
 import warnings
 import weakref
@@ -10,7 +12,7 @@ from unittest import mock
 
 import numpy as np
 import pyvista as pv
-from scatteredisopoints import Samples, _pyvista, body, contour, gradient, probe, slice_samples
+from scatteredisopoints import Samples, _arrays, _pyvista, body, contour, gradient, probe, slice_samples
 
 
 def cloud(count=20000):
@@ -22,8 +24,8 @@ def cloud(count=20000):
     return data
 
 
-def grid():
-    data = pv.ImageData(dimensions=(30, 31, 32), spacing=(0.07, 0.14, 0.21), origin=(1, 2, 3))
+def grid(dimensions=(30, 31, 32)):
+    data = pv.ImageData(dimensions=dimensions, spacing=(0.07, 0.14, 0.21), origin=(1, 2, 3))
     data["distance"] = np.linalg.norm(data.points - data.center, axis=1)
     data.cell_data["of cells"] = np.linalg.norm(data.cell_centers().points - data.center, axis=1)
     return data
@@ -43,6 +45,7 @@ class Accessor(Warned):
     def test_nothing_has_to_be_imported(self):
         names = [accessor.name for accessor in pv.registered_accessors()]
         self.assertIn("scattered", dir(cloud()) + names)
+        self.assertRegex(repr(cloud().scattered), "^<scattered of a PolyData: body, compute_deriv.*, contour, ")
 
     def test_triangles(self):
         data = cloud()
@@ -76,7 +79,7 @@ class Accessor(Warned):
         visible = np.count_nonzero(octagons["Radius"])
         self.assertLess(visible, isopoints.n_points)  # some are hidden behind close ones
         self.assertEqual(octagons.scattered.splats().n_cells, 6 * visible)
-        with self.assertRaisesRegex(ValueError, "no normals"):
+        with self.assertRaisesRegex(ValueError, "no normals: extract them with compute_normals"):
             cloud().scattered.splats()
 
     def test_numbers_of_isosurfaces(self):
@@ -173,6 +176,36 @@ class Accessor(Warned):
         blocks.SetBlock(0, moved)
         self.assertGreater(blocks.scattered.contour([0.3], "distance").center[2], 5)
 
+    def test_changes_in_memory_are_noticed(self):
+        """VTK has no notice of what NumPy writes into shared memory."""
+        image = grid((10, 11, 12))
+        curved = image.cast_to_structured_grid()
+        for data, name in ((cloud(2000), "distance"), (pv.MultiBlock([cloud(2000), cloud(10)]), "distance"),
+                           (image, "of cells"), (curved.copy(), "of cells"), (pv.MultiBlock([curved]), "of cells"),
+                           (image.cast_to_rectilinear_grid(), "distance")):
+            block = data[0] if isinstance(data, pv.MultiBlock) else data
+            memory = [np.asarray(block[name])]
+            if not isinstance(block, pv.ImageData):
+                memory.append(_arrays.as_numpy(block.GetXCoordinates() if isinstance(block, pv.RectilinearGrid) else
+                                               block.GetPoints().GetData()))
+            where = np.asarray(block.center) + np.random.default_rng(2).uniform(-0.1, 0.1, (20, 3))
+            level, association = np.median(memory[0]), "cell" if name == "of cells" else "point"
+            for call in (lambda each: each.scattered.contour([level], name),
+                         lambda each: each.scattered.contour([level], name, triangles=False),
+                         lambda each: each.scattered.slice("x", where[0], scalars=name),
+                         lambda each: each.scattered.body(name, preference=association),
+                         lambda each: each.scattered.probe(where, name),
+                         lambda each: each.scattered.to_grid(4, scalars=name)):
+                for array in memory:
+                    call(data)
+                    before = call(data)
+                    array *= 1.0 + 2.0**-5
+                    found, expected = call(data), call(data.copy())
+                    np.testing.assert_array_equal(found.points, expected.points)
+                    np.testing.assert_array_equal(found[name], expected[name])
+                    self.assertFalse(found.points.tobytes() == before.points.tobytes()
+                                     and found[name].tobytes() == before[name].tobytes())
+
     def test_calls_meanwhile(self):
         """A call on another array, as of another thread, leaves a call its array."""
         data = cloud()
@@ -246,12 +279,17 @@ class Accessor(Warned):
                 source.scattered.contour([0.3], *arguments, **options)
 
     def test_data_of_contour(self):
-        surface = contour(cloud(), "distance", 0.3)
+        surface = contour(cloud(), "distance", 0.3, triangles=True)
         self.assertIs(type(surface.polydata), pv.PolyData)
-        points = surface.points
-        points[0] = 7.0
-        self.assertEqual(surface.polydata.points[0].tolist(), [7.0, 7.0, 7.0])
-        self.assertGreater(surface.splats().polydata.n_cells, 1000)
+        self.assertGreater(contour(cloud(), "distance", 0.3).splats().polydata.n_cells, 1000)
+        points = surface.points.copy()
+        for data in (surface.polydata, surface.to_pyvista(), cloud().scattered.contour([0.3])):
+            before = data.area, data["distance"].max()
+            data.points *= 2
+            data["distance"] += 1
+            self.assertEqual((data.area, data["distance"].max()), (4 * before[0], before[1] + 1))
+        np.testing.assert_array_equal(surface.points, points)
+        self.assertEqual(set(surface.arrays["distance"]), {0.3})
 
     def test_surfaces_of_arrays_become_data_of_pyvista(self):
         data = cloud(3000)
@@ -263,6 +301,10 @@ class Accessor(Warned):
             np.testing.assert_array_equal(found.points, surface.points)
             np.testing.assert_array_equal(found.regular_faces, surface.triangles)
             np.testing.assert_array_equal(found["Normals"], surface.normals)
+        text = (pathlib.Path(__file__).parents[2] / "docs/python.md").read_text()
+        call, = re.findall(r"^hot\S*\.smooth_taubin\(.*?\)", text, re.MULTILINE)
+        with mock.patch.object(pv.PolyData, "smooth_taubin") as smooth:  # cvista may lack it
+            self.assertIs(eval(call, {"hot": surface}), smooth.return_value)
 
 
 class Probing(Warned):
@@ -524,6 +566,44 @@ class Probing(Warned):
             data["plane"] = 2 * data["plane"]
             self.assertAlmostEqual(data.scattered.probe(inside, "plane")["plane"][0], 6, places=5)
             self.assertGreater(data.scattered.contour([6], "plane").n_points, 100)
+
+    def test_text_is_left_out(self):
+        data, text = self.cloud(), 'Left out are "words": they hold no numbers.'
+        data["words"] = ["word"] * data.n_points
+        where = [[0.4, 0.5, 0.5], [0.6, 0.5, 0.5]]
+        for source in (data, pv.MultiBlock([data, data.translate((2, 0, 0))])):
+            for call in (lambda: source.scattered.contour([3], "plane"), lambda: source.scattered.body(),
+                         lambda: source.scattered.probe(where), lambda: source.scattered.slice("x"),
+                         lambda: source.scattered.sample_over_line(*where, 5), lambda: contour(source, "plane", 3)):
+                self.assertIn(text, self.caught(call)[0])
+            for call in (lambda: source.scattered.slice("x", scalars="plane"), lambda: source.scattered.body("plane"),
+                         lambda: source.scattered.probe(where, "plane")):
+                self.assertNotIn(text, self.caught(call)[0])
+        self.assertEqual(data.scattered.probe([0.4, 0.5, 0.5], "plane").n_points, 1)
+        self.assertEqual(data.scattered.probe([], "plane").n_points, 0)
+
+    def test_unknown_options(self):
+        """The message has the names of this call."""
+        data = self.cloud()
+        for call, names in (
+                (lambda: data.scattered.slice(q=1), "drop_gaps interpolation offsets scalars preference threads"),
+                (lambda: data.scattered.slice_orthogonal(q=1), "interpolation x y z"),
+                (lambda: data.scattered.slice_implicit(len, q=1), "interpolation implicit_function"),
+                (lambda: data.scattered.body(q=1), "minimum_piece_size scalars"),
+                (lambda: data.scattered.to_grid(3, q=1), "method spacing scalars"),
+                (lambda: data.scattered.sample_over_line(*[[0, 0, 0]] * 2, q=1), "method resolution"),
+                (lambda: data.scattered.contour([3], "plane", q=1), "isosurfaces rng capping"),
+                (lambda: slice_samples(data, q=1), "arrays interpolation function"),
+                (lambda: body(data, q=1), "arrays threads"),
+                (lambda: contour(data, "plane", 3, q=1), "isovalues arrays drop_gaps")):
+            with self.assertRaisesRegex(TypeError, "unknown option q: there are ") as caught:
+                call()
+            listed = str(caught.exception).partition(": there are ")[2].split(", ")
+            self.assertEqual(set(names.split()) - set(listed), set())
+        for call, text in ((lambda: data.scattered.slice(interpolate="linear"), "did you mean interpolation?"),
+                           (lambda: data.scattered.contour([3], "plane", values=1), "did you mean scalars?")):
+            with self.assertRaisesRegex(TypeError, text):
+                call()
 
     def test_wrong_choices(self):
         data = self.cloud()
