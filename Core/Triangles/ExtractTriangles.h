@@ -63,7 +63,8 @@ public:
   {
   }
 
-  /// @throws Aborted, std::bad_alloc, or TreeTooLarge (see NarrowBand); the tree stays usable
+  /// @throws Aborted, std::bad_alloc, TooManyTetrahedra, or TreeTooLarge (see NarrowBand); the tree
+  /// stays usable
   TriangleSurface extract()
   {
     if (this->Tree.isEmpty())
@@ -125,7 +126,8 @@ private:
         .refine(this->Ranks);
     const Execution part = partOf(execution, bandEnd, 1.0);
     CrossingTetrahedraFinder<TSample, TRanks> finder(
-      part, this->Tree, this->Ranks, this->Values, this->Request.isovalue, this->Kept);
+      part, this->Tree, this->Ranks, this->Values, this->Request.isovalue, this->Kept,
+      this->Request.tetrahedraLimit);
     auto found = find(part, finder, nodes);
     if (!this->Request.keepsTetrahedra)
     {
