@@ -9,8 +9,8 @@
 namespace isopoint
 {
 
-/// The most tetrahedra of a cloud, which samples on curves exceed: docs/triangles.md. Volumes have 7
-/// for each sample, tilted wells 32, a curve half as many as it has samples.
+/// The most tetrahedra of a cloud, which samples on curves exceed: docs/triangles.md. Volumes have
+/// 7 for each sample, tilted wells 32, a curve half as many as it has samples.
 struct TetrahedraLimit
 {
   std::size_t least = 4000000; // of any cloud
@@ -26,8 +26,8 @@ struct TetrahedraLimit
 struct TooManyTetrahedra : std::runtime_error
 {
   TooManyTetrahedra(std::size_t sampleCount, std::size_t most)
-    : std::runtime_error("more than " + std::to_string(most) + " for " +
-                         std::to_string(sampleCount) + " samples")
+    : std::runtime_error(
+        "more than " + std::to_string(most) + " for " + std::to_string(sampleCount) + " samples")
   {
   }
 };

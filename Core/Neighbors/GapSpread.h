@@ -34,8 +34,8 @@ public:
     this->resize();
   }
 
-  /// Marks the weak seeds, and all weak elements that a chain of weak ones connects with a seed. May
-  /// be called again with other seeds.
+  /// Marks the weak seeds, and all weak elements that a chain of weak ones connects with a seed.
+  /// May be called again with other seeds.
   /// @param front the seeds, each once
   /// @param weakAmong(elements) those of some elements that are weak, on any rank
   /// @throws std::bad_alloc, Aborted, FailedElsewhere; so does dropFragments()

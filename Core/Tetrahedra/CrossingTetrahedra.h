@@ -30,6 +30,8 @@ struct TetrahedraCounts
 {
   std::size_t atSurface = 0; // samples of leaves near the surface
   std::size_t size = 0;      // samples tetrahedralized in the end
+  std::size_t cells = 0;     // tetrahedra of these, and facets of their hull
+  std::size_t edges = 0;     // asked whether they are in gaps, with repetitions
   std::size_t rounds = 0;
   bool isWhole = false; // whether these are all samples
 };
@@ -186,6 +188,7 @@ private:
   void finish()
   {
     this->Counts.size = this->triangulation().size();
+    this->Counts.cells = this->triangulation().cellCount();
     this->Counts.isWhole = this->Current->isWhole;
     this->Run.progress(1.0);
     if (this->Current->isSmall(this->Tree.ownCount()))
@@ -315,8 +318,10 @@ private:
   {
     this->Current->marks.grow(this->Tree.nodes.size());
     const std::vector<Site> sites = this->newSites(leaves);
-    // The number of cells depends on ranks and former isovalues, unlike that of all samples.
-    const std::size_t most = this->Current->isUnlimited ? unlimited : this->Most / 2;
+    // These cells depend on ranks and former isovalues. So all samples decide, whenever the limit
+    // may be near.
+    constexpr std::size_t suspiciousPart = 3;
+    const std::size_t most = this->Current->isUnlimited ? unlimited : this->Most / suspiciousPart;
     const bool isFull = !this->insert(this->triangulation(), this->nextStep(), sites, most);
     if (this->Ranks.isAny(isFull))
     {

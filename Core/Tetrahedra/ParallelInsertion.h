@@ -263,7 +263,8 @@ private:
     constexpr std::size_t stepSize = 512;
     Vertex hint;
     freeCells = 0;
-    constexpr std::size_t fewCells = 64; // on a curve each sample adds as many cells as there are samples
+    constexpr std::size_t fewCells =
+      64; // on a curve each sample adds as many cells as there are samples
     for (std::size_t i = begin; i < end; ++i)
     {
       if ((i - begin) % fewCells == 0 && this->isFull())

@@ -55,14 +55,15 @@ public:
           [&](std::size_t pair, const Region& box)
           {
             this->Boxes[pair] = box;
-            areOfLeaves = areOfLeaves && this->hasOnePosition(2 * pair) &&
-                          this->hasOnePosition(2 * pair + 1);
+            areOfLeaves =
+              areOfLeaves && this->hasOnePosition(2 * pair) && this->hasOnePosition(2 * pair + 1);
           });
         this->AreOfLeaves.store(areOfLeaves, std::memory_order_release);
       });
   }
 
-  /// Whether compute() has found all samples in split nodes and leaves, whose boxes need no regions.
+  /// Whether compute() has found all samples in split nodes and leaves, whose boxes need no
+  /// regions.
   bool areOfLeaves() const { return this->AreOfLeaves.load(std::memory_order_acquire); }
 
   /// The box of a split node, if areOfLeaves().

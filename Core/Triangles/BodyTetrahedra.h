@@ -179,6 +179,9 @@ public:
     return body;
   }
 
+  /// See TetrahedronEdges.
+  std::size_t askedCount() const { return this->Edges.askedCount(); }
+
 private:
   using Spread = GapSpread<TRanks, ExploredTetrahedra<TSample, TRanks>>;
 

@@ -88,8 +88,9 @@ private:
       [&](std::size_t tetrahedron)
       {
         const Corners& corners = this->Tetrahedra[tetrahedron].corners;
-        haveMany = haveMany || std::all_of(corners.begin(), corners.end(),
-                                 [&](std::size_t leaf) { return this->AtLeaves->at(leaf).count > many; });
+        haveMany =
+          haveMany || std::all_of(corners.begin(), corners.end(),
+                        [&](std::size_t leaf) { return this->AtLeaves->at(leaf).count > many; });
       });
     return haveMany;
   }
@@ -176,7 +177,8 @@ public:
                       [&](std::size_t i) { return this->Tetrahedra[i].isAtHull; }),
         weakAmong);
     }
-    // Strong tetrahedra are weak, too. In clouds on curves nearly all are in one gap: few are asked.
+    // Strong tetrahedra are weak, too. In clouds on curves nearly all are in one gap: few are
+    // asked.
     constexpr std::size_t firstPart = 65536;
     std::vector<std::size_t> open = this->candidates();
     for (std::size_t most = firstPart; !open.empty(); most *= 2)
@@ -189,6 +191,9 @@ public:
     spread.dropFragments();
     return spread.takeMarks();
   }
+
+  /// See TetrahedronEdges.
+  std::size_t askedCount() const { return this->Edges.askedCount(); }
 
 private:
   /// Those from which gaps spread. If slivers are kept, these span a void.

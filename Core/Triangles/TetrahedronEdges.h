@@ -57,6 +57,9 @@ public:
     return found;
   }
 
+  /// How many edges were asked, with repetitions.
+  std::size_t askedCount() const { return this->AskedCount; }
+
 private:
   /// Edges of this many tetrahedra are listed at once: of these each is asked once. They take 200
   /// bytes for each tetrahedron, and as much for sorting.
@@ -121,6 +124,7 @@ private:
   {
     const std::vector<Edge> distinct = sortedUnique(this->Run, edges, this->Tree.samples.size(),
       [](const Edge& edge) { return edge.treeIndices[0]; });
+    this->AskedCount += distinct.size();
     if (distinct.size() > this->Tree.samples.size()) // samples on lines
     {
       this->Bounds.compute();
@@ -163,6 +167,7 @@ private:
   TRanks& Ranks;
   const std::function<Corners(std::size_t)> CornersOf;
   ConcurrentMemo<SampleSpacing> Spacings; // by leaf
+  std::size_t AskedCount = 0;
 };
 
 } // namespace isopoint
