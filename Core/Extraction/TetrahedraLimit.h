@@ -9,12 +9,15 @@
 namespace isopoint
 {
 
+constexpr std::size_t fewTetrahedra = 4000000; // permitted in any cloud
+constexpr std::size_t tetrahedraForSample = 60;
+
 /// The most tetrahedra of a cloud, which samples on curves exceed: docs/triangles.md. Volumes have
 /// 7 for each sample, tilted wells 32, a curve half as many as it has samples.
 struct TetrahedraLimit
 {
-  std::size_t least = 4000000; // of any cloud
-  std::size_t forSample = 60;
+  std::size_t least = fewTetrahedra;
+  std::size_t forSample = tetrahedraForSample;
 
   std::size_t of(std::size_t sampleCount) const
   {
