@@ -3,6 +3,7 @@
 
 #include "Core/Base/Execution.h"
 #include "Core/Base/ProcessGroup.h"
+#include "Core/Extraction/TetrahedraLimit.h"
 #include "Core/Tree/BinaryIndex.h"
 
 #include <cstddef>
@@ -42,6 +43,14 @@ Failure describe()
                                       error.what() +
                                       "). Merge coincident samples or reduce the number of"
                                       " samples." };
+  }
+  catch (const TooManyTetrahedra& error)
+  {
+    return { Failure::InvalidUsage, std::string("The samples have too many tetrahedra (") +
+                                      error.what() +
+                                      "), because they lie on curves. Extract points instead of"
+                                      " triangles, probe values, average samples along the curves,"
+                                      " or interpolate with radial basis functions." };
   }
   catch (const std::length_error&)
   {

@@ -80,7 +80,8 @@ typedef struct isopoint_surface isopoint_surface;
 typedef enum isopoint_status
 {
   ISOPOINT_OK = 0,
-  ISOPOINT_INVALID_ARGUMENT = 1, /* such as a null pointer, an isovalue, or too many samples */
+  ISOPOINT_INVALID_ARGUMENT = 1, /* such as a null pointer, an isovalue, too many samples, or triangles
+                                    of samples on curves, which have too many tetrahedra */
   ISOPOINT_OUT_OF_MEMORY = 2,
   ISOPOINT_CANCELED = 3,       /* by the callback */
   ISOPOINT_INTERNAL_ERROR = 4, /* a defect of the library */

@@ -5,6 +5,7 @@
 #include "Core/Base/Lists.h"
 #include "Core/Base/Sorting.h"
 #include "Core/Base/Vector.h"
+#include "Core/Extraction/TetrahedraLimit.h"
 #include "Core/Fit/LocalFit.h"
 #include "Core/Neighbors/AngleCriterion.h"
 #include "Core/Tree/CoincidentSamples.h"
@@ -73,6 +74,8 @@ struct IsosurfaceRequest
   /// Triangles only: whether to keep the tetrahedralization near the surface for the next
   /// extraction, unless it is large (see KeptTetrahedra).
   bool keepsTetrahedra = true;
+  /// Triangles only: beyond it extraction ends. Tests lower it.
+  TetrahedraLimit tetrahedraLimit{};
   /// Triangles with creases only: whether vertices are repeated on each side, for separate normals.
   bool duplicatesCreaseVertices = false;
   /// Triangles only: whether to merge vertices and flip edges for good shapes (docs/triangles.md).

@@ -5,6 +5,7 @@
 #include "Core/Neighbors/NeighborSearch.h"
 #include "Core/Tree/SampleBounds.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -69,7 +70,9 @@ public:
     const Vector center = positionOf(end);
     SearchBehind<TSample> search{ *this, tree, bounds, center,
       offsetBetween(center, positionOf(other)), {} };
-    return searchRegion(tree, rootNode, this->boxAround(center, search.edge.length), search);
+    return bounds.areOfLeaves() && !tree.isEmpty()
+             ? search.searchBoxes(rootNode)
+             : searchRegion(tree, rootNode, this->boxAround(center, search.edge.length), search);
   }
 
   /// A quick test: if false, no edge of the leaf's sample up to this length is rejected.
@@ -136,6 +139,43 @@ private:
       }
       this->bounds.compute();
       return this->mayHold(this->bounds.offsets(this->center, node));
+    }
+
+    /// The same search in the boxes of samples alone, a few times faster on lines.
+    bool searchBoxes(std::size_t nodeIndex)
+    {
+      const Node<TSample>& node = this->tree.nodes[nodeIndex];
+      if (!node.isSplit())
+      {
+        return this->add(nodeIndex);
+      }
+      if (!this->mayHold(this->bounds.box(node)))
+      {
+        return false;
+      }
+      const bool isUpperFirst = this->isUpperFirst(node);
+      return this->searchBoxes(this->tree.child(node, isUpperFirst)) ||
+             this->searchBoxes(this->tree.child(node, !isUpperFirst));
+    }
+
+    /// Whether a sample in a box may be behind the end, as far as quick tests tell.
+    bool mayHold(const Region& box) const
+    {
+      constexpr double slack = 0.999; // for rounding
+      double squaredGap = 0.0;
+      double greatest = 0.0; // component behind the end, times the edge's length
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        const double lower = box.lower[axis] - this->center[axis];
+        const double upper = box.upper[axis] - this->center[axis];
+        const double gap = std::max(std::max(lower, -upper), 0.0);
+        squaredGap += gap * gap;
+        const double along = -this->edge.vector[axis];
+        greatest += std::max(lower * along, upper * along);
+      }
+      const double gap = slack * std::sqrt(squaredGap);
+      return this->criterion.Factor * gap <= this->edge.length &&
+             greatest >= this->criterion.Cosine * (gap * this->edge.length);
     }
 
     /// Whether a sample whose offset is within bounds may be behind the end. Rounding is monotonic.

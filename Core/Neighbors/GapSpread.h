@@ -35,6 +35,7 @@ public:
   }
 
   /// Marks the weak seeds, and all weak elements that a chain of weak ones connects with a seed.
+  /// May be called again with other seeds.
   /// @param front the seeds, each once
   /// @param weakAmong(elements) those of some elements that are weak, on any rank
   /// @throws std::bad_alloc, Aborted, FailedElsewhere; so does dropFragments()
@@ -84,6 +85,9 @@ public:
     forEachInOrder(
       this->Run, fragments.size(), [&](std::size_t i) { this->IsInGap[fragments[i]] = 1; });
   }
+
+  /// Whether an element was a seed or beside a marked one. Those that are not marked are not weak.
+  bool isReached(std::size_t element) const { return this->IsReached[element] != 0; }
 
   /// By element, whether it is marked. Moved out.
   std::vector<char> takeMarks() { return std::move(this->IsInGap); }

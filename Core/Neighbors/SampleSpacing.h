@@ -48,6 +48,13 @@ private:
   const Kind IsOfKind;
 };
 
+/// Distances from a sample to others.
+struct SampleSpacing
+{
+  double nearest; // to the nearest other position
+  double tenth;   // to the tenth nearest one; infinite if there are fewer
+};
+
 /// Finds the spacing of the samples around one of them.
 template <class TSample>
 class SpacingSearch : public BallSearch<TSample>
@@ -59,16 +66,12 @@ public:
   {
   }
 
-  /// The distance to the tenth nearest other position; infinite if there are fewer. O(log n) mostly
-  /// @throws MissingNode at a node whose samples another rank holds
-  double find()
+  /// O(log n) mostly. @throws MissingNode at a node whose samples another rank holds
+  SampleSpacing find()
   {
     searchRegion(this->Tree, rootNode, this->Tree.region, *this);
-    return this->Radius;
+    return { this->Nearest.front().distance, this->Radius };
   }
-
-  /// The distance to the nearest other position, after find().
-  double nearest() const { return this->Nearest.front().distance; }
 
   bool add(std::size_t nodeIndex)
   {

@@ -4,6 +4,8 @@
 #include "Core/Neighbors/GapCriterion.h"
 #include "Core/Neighbors/SampleSpacing.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace isopoint
@@ -25,11 +27,12 @@ public:
   }
 
   /// Whether an edge is rejected. Symmetric; throws and takes time as GapCriterion::rejects().
-  /// @param spacing the greater spacing of the two ends
+  /// @param spacings of the two ends
   template <class TSample>
   bool rejects(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds, const TSample& own,
-    const TSample& other, double spacing) const
+    const TSample& other, const std::array<SampleSpacing, 2>& spacings) const
   {
+    const double spacing = std::max(spacings[0].tenth, spacings[1].tenth);
     constexpr double slack = 1.001; // for rounding
     const bool mayHoldNoEnd =
       2.0 * this->Factor * spacing < slack * lengthOf(positionOf(other) - positionOf(own));
@@ -37,7 +40,7 @@ public:
     return mayHoldNoEnd &&
            this->isBare(tree, positionOf(own), positionOf(other), this->Factor * spacing) &&
            (this->Criterion.rejects(tree, bounds, own, other) ||
-             this->joinsRims(tree, bounds, own, other, spacing));
+             this->joinsRims(tree, bounds, own, other, spacings));
   }
 
 private:
@@ -46,26 +49,28 @@ private:
   /// lines.
   template <class TSample>
   static bool joinsRims(const SampleTree<TSample>& tree, SampleBounds<TSample>& bounds,
-    const TSample& own, const TSample& other, double spacing)
+    const TSample& own, const TSample& other, const std::array<SampleSpacing, 2>& spacings)
   {
     constexpr double bareFactor = 2.0;
+    const double spacing = std::max(spacings[0].tenth, spacings[1].tenth);
     const Vector edge = positionOf(other) - positionOf(own);
+    // The quicker tests come first: lines have many such edges.
     return isBare(tree, positionOf(own), positionOf(other), bareFactor * spacing) &&
+           extendsAlong(tree, own, edge, spacings[0]) &&
+           extendsAlong(tree, other, edge, spacings[1]) &&
            !GapCriterion::beyond().isDense(tree, bounds, own, other) &&
-           !GapCriterion::beyond().isDense(tree, bounds, other, own) &&
-           extendsAlong(tree, own, edge) && extendsAlong(tree, other, edge);
+           !GapCriterion::beyond().isDense(tree, bounds, other, own);
   }
 
   /// Whether one of the ten nearest positions is as far from an end, measured along the edge, as
   /// the nearest one is in any direction.
   template <class TSample>
-  static bool extendsAlong(const SampleTree<TSample>& tree, const TSample& end, const Vector& edge)
+  static bool extendsAlong(const SampleTree<TSample>& tree, const TSample& end, const Vector& edge,
+    const SampleSpacing& spacing)
   {
-    SpacingSearch<TSample> around(tree, end);
-    const double spacing = around.find();
-    const double least = around.nearest() * lengthOf(edge);
+    const double least = spacing.nearest * lengthOf(edge);
     const auto isAlong = [&](const Vector& offset) { return std::abs(dot(offset, edge)) >= least; };
-    return AnyInBallSearch(tree, positionOf(end), spacing, isAlong).hasAny();
+    return AnyInBallSearch(tree, positionOf(end), spacing.tenth, isAlong).hasAny();
   }
 
   /// Whether one of the balls is empty. The same from either end.

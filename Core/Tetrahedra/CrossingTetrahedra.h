@@ -2,6 +2,8 @@
 #pragma once
 
 #include "Core/Base/Execution.h"
+#include "Core/Base/Lists.h"
+#include "Core/Extraction/TetrahedraLimit.h"
 #include "Core/Neighbors/NeighborSearch.h"
 #include "Core/Tetrahedra/KeptTetrahedra.h"
 #include "Core/Tetrahedra/SideCheck.h"
@@ -14,6 +16,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -27,6 +30,8 @@ struct TetrahedraCounts
 {
   std::size_t atSurface = 0; // samples of leaves near the surface
   std::size_t size = 0;      // samples tetrahedralized in the end
+  std::size_t cells = 0;     // tetrahedra of these, and facets of their hull
+  std::size_t edges = 0;     // asked whether they are in gaps, with repetitions
   std::size_t rounds = 0;
   bool isWhole = false; // whether these are all samples
 };
@@ -44,28 +49,36 @@ public:
   /// @param values of the tree's leaves
   /// @param kept of an earlier search in this tree, or null; receives what to keep of this one:
   /// null if that is large or the search fails
+  /// @param limit of the tetrahedra of all samples
   CrossingTetrahedraFinder(const Execution& execution, SampleTree<TSample>& tree, TRanks& ranks,
-    LeafValues<TSample>& values, double isovalue, std::unique_ptr<KeptTetrahedra>& kept)
+    LeafValues<TSample>& values, double isovalue, std::unique_ptr<KeptTetrahedra>& kept,
+    const TetrahedraLimit& limit = {})
     : Run(execution)
     , Tree(tree)
     , Ranks(ranks)
     , Values(values)
     , Isovalue(isovalue)
     , Kept(kept)
+    , Most(limit.of(tree.samples.size()))
   {
   }
 
   /// @param nodes that contain all of this rank's leaves that touch a leaf on the other side
   /// @returns tetrahedra of leaves of this rank's tree
-  /// @throws std::bad_alloc, Aborted, FailedElsewhere, or TreeTooLarge (see NarrowBand)
+  /// @throws std::bad_alloc, Aborted, FailedElsewhere, TreeTooLarge (see NarrowBand), or
+  /// TooManyTetrahedra on all ranks
   std::vector<LeafTetrahedron> find(const std::vector<BinaryIndex>& nodes)
   {
-    if (!this->certifyCrossing(nodes))
-    {
-      return {};
-    }
-    std::vector<LeafTetrahedron> found = this->triangulation().crossingTetrahedra(this->Run);
-    this->finish();
+    std::vector<LeafTetrahedron> found;
+    this->search(
+      [&]()
+      {
+        if (this->certifyCrossing(nodes))
+        {
+          found = this->triangulation().crossingTetrahedra(this->Run);
+          this->finish();
+        }
+      });
     return found;
   }
 
@@ -73,19 +86,24 @@ public:
   /// hull, then calls explore(), which may use triangulation() and certifyTargets(). Coplanar
   /// samples have no body.
   /// @param nodes as above
+  /// @param explore may be called again, after an exception that certifyTargets() throws
   /// @throws as find(), and what explore throws
   template <class Explore>
   void findBody(const std::vector<BinaryIndex>& nodes, const Explore& explore)
   {
     this->IsBody = true;
-    if (this->certifyCrossing(nodes))
-    {
-      if (this->triangulation().dimension() == 3)
+    this->search(
+      [&]()
       {
-        explore();
-      }
-      this->finish();
-    }
+        if (this->certifyCrossing(nodes))
+        {
+          if (this->triangulation().dimension() == 3)
+          {
+            explore();
+          }
+          this->finish();
+        }
+      });
   }
 
   /// Certifies the targets of the triangulation. Samples in their spheres are inserted, which
@@ -110,6 +128,28 @@ public:
   const TetrahedraCounts& counts() const { return this->Counts; }
 
 private:
+  /// Searches again without inserting all samples if only that exceeded the limit: when searches
+  /// take too long differs among ranks.
+  template <class Work>
+  void search(const Work& work)
+  {
+    try
+    {
+      work();
+    }
+    catch (const TooManyTetrahedra&)
+    {
+      if (!this->IsInsertingAll)
+      {
+        throw;
+      }
+      this->IsInsertingAll = false;
+      this->MayInsertAll = false;
+      dropTetrahedra(this->Run, this->Current);
+      work();
+    }
+  }
+
   /// @returns whether the surface may have tetrahedra
   bool certifyCrossing(const std::vector<BinaryIndex>& nodes)
   {
@@ -148,6 +188,7 @@ private:
   void finish()
   {
     this->Counts.size = this->triangulation().size();
+    this->Counts.cells = this->triangulation().cellCount();
     this->Counts.isWhole = this->Current->isWhole;
     this->Run.progress(1.0);
     if (this->Current->isSmall(this->Tree.ownCount()))
@@ -276,12 +317,57 @@ private:
   void insert(const std::vector<std::size_t>& leaves)
   {
     this->Current->marks.grow(this->Tree.nodes.size());
-    this->triangulation().insert(this->Run, this->newSites(leaves),
-      [step = this->nextStep()](double share)
+    const std::vector<Site> sites = this->newSites(leaves);
+    // These cells depend on ranks and former isovalues. So all samples decide, whenever the limit
+    // may be near.
+    constexpr std::size_t suspiciousPart = 3;
+    const std::size_t most = this->Current->isUnlimited ? unlimited : this->Most / suspiciousPart;
+    const bool isFull = !this->insert(this->triangulation(), this->nextStep(), sites, most);
+    if (this->Ranks.isAny(isFull))
+    {
+      this->requireFewInAll();
+      this->Current->isUnlimited = true;
+      this->insert(this->triangulation(), this->nextStep(), sites, unlimited);
+    }
+  }
+
+  static bool insert(PartialTriangulation& triangulation, const Execution& step,
+    const std::vector<Site>& sites, std::size_t most)
+  {
+    return triangulation.insert(
+      step, sites,
+      [&step](double share)
       {
         throwIfAborted(step);
         step.progress(share);
-      });
+      },
+      most);
+  }
+
+  /// Throws if all samples have too many tetrahedra: inserts them in one order on one thread.
+  void requireFewInAll()
+  {
+    if (this->MayInsertAll)
+    {
+      std::vector<std::size_t> leaves = this->allOwnLeaves();
+      this->gather(leaves);
+      this->Current->marks.grow(this->Tree.nodes.size());
+      Execution alone = this->nextStep();
+      alone.threads = 1;
+      PartialTriangulation all(unitOfSamples(this->Run, this->Tree));
+      const bool isFull = !insert(all, alone,
+        tabulated<Site>(this->Run, leaves.size(),
+          [&](std::size_t i) -> Site {
+            return { positionOf(this->Tree.sampleOf(leaves[i])), leaves[i], false };
+          }),
+        this->Most);
+      all.clear(this->Run);
+      if (!this->Ranks.isAny(isFull))
+      {
+        return;
+      }
+    }
+    throw TooManyTetrahedra(this->Tree.samples.size(), this->Most);
   }
 
   /// @param leaves of this rank, in any order, with repetitions
@@ -318,11 +404,18 @@ private:
 
   void insertAll()
   {
+    this->IsInsertingAll = true;
+    this->gatherAndInsert(this->allOwnLeaves());
+    this->IsInsertingAll = false;
+    this->Current->isWhole = true;
+  }
+
+  std::vector<std::size_t> allOwnLeaves()
+  {
     splitCompletely(this->Run, this->Tree, { rootNode });
     std::vector<std::size_t> leaves;
     this->forEachOwnEnd([&](std::size_t leaf) { leaves.push_back(leaf); });
-    this->gatherAndInsert(std::move(leaves));
-    this->Current->isWhole = true;
+    return leaves;
   }
 
   /// This rank's leaves in the corners of the tree: the hull grows from them.
@@ -536,7 +629,7 @@ private:
     constexpr double manyShare = 1.0 / 3.0;
     constexpr std::size_t smallCloud = 1000; // most of its samples are near the surface
     const std::size_t count = this->Tree.samples.size();
-    return count > smallCloud &&
+    return this->MayInsertAll && count > smallCloud &&
            static_cast<double>(leafCount) > manyShare * static_cast<double>(count);
   }
 
@@ -549,7 +642,8 @@ private:
     const std::size_t visits = this->Visits.load(std::memory_order_relaxed);
     const bool areLong = visits > longSearch * this->Searches.load(std::memory_order_relaxed);
     const std::size_t visitsForSample = areLong ? 25 : 300;
-    return visits > visitsForSample * (this->Tree.samples.size() + smallCloud);
+    return this->MayInsertAll &&
+           visits > visitsForSample * (this->Tree.samples.size() + smallCloud);
   }
 
   const Execution& Run;
@@ -559,6 +653,10 @@ private:
   const double Isovalue;
   std::unique_ptr<KeptTetrahedra>& Kept;
   std::unique_ptr<KeptTetrahedra> Current;
+  static constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
+  const std::size_t Most; // tetrahedra of all samples
+  bool MayInsertAll = true;
+  bool IsInsertingAll = false;
   bool IsBody = false;
   std::atomic<std::size_t> Visits{ 0 }; // nodes and list entries visited, or equal work
   std::atomic<std::size_t> Searches{ 0 };

@@ -37,6 +37,7 @@ struct KeptTetrahedra
   NodeMarks marks;              // see nodemarks
   ConcurrentMemo<Region> boxes; // see SphereSearch
   bool isWhole = false;         // whether all samples are in it
+  bool isUnlimited = false;     // whether those of all samples are known to be within the limit
 };
 
 /// Sets a pointer to null. @throws Aborted, after which it is null, too

@@ -182,11 +182,12 @@ class Insertion
 {
 public:
   Insertion(const Execution& execution, Triangulation& cells, const std::vector<Site>& sites,
-    const std::function<void(double share)>& step)
+    const std::function<void(double share)>& step, std::size_t most)
     : Run(execution)
     , Cells(cells)
     , Sites(sites)
     , Step(step)
+    , Most(most)
     , Order(sites.size())
   {
   }
@@ -194,7 +195,8 @@ public:
   Insertion& operator=(const Insertion&) = delete;
   ~Insertion() { this->Cells.set_lock_data_structure(nullptr); }
 
-  void run()
+  /// @returns whether all samples were inserted, without more cells
+  bool run()
   {
     this->sort();
     std::size_t begin = 0;
@@ -203,6 +205,7 @@ public:
       this->insertLevel(begin, end);
       begin = end;
     }
+    return !this->isFull();
   }
 
 private:
@@ -260,8 +263,14 @@ private:
     constexpr std::size_t stepSize = 512;
     Vertex hint;
     freeCells = 0;
+    constexpr std::size_t fewCells =
+      64; // on a curve each sample adds as many cells as there are samples
     for (std::size_t i = begin; i < end; ++i)
     {
+      if ((i - begin) % fewCells == 0 && this->isFull())
+      {
+        return;
+      }
       if ((i - begin) % stepSize == 0)
       {
         this->report();
@@ -284,11 +293,21 @@ private:
     this->Step(static_cast<double>(this->Done) / static_cast<double>(this->Order.size()));
   }
 
+  /// Whether there are more cells than wanted.
+  bool isFull() const { return this->Cells.tds().cells().size() > this->Most; }
+
+  /// Whether there may be too many cells after a few thousand more samples.
+  bool mayGetFull() const
+  {
+    constexpr std::size_t manyForSample = 20;
+    return this->Cells.tds().cells().size() > manyForSample * this->Cells.number_of_vertices();
+  }
+
   void insertLevel(std::size_t begin, std::size_t end)
   {
 #ifdef CGAL_LINKED_WITH_TBB
     if (this->Run.threads > 1 && end - begin >= manySites && this->Cells.dimension() == 3 &&
-        this->makeLocks())
+        !this->mayGetFull() && this->makeLocks())
     {
       this->insertTogether(begin, end);
       return;
@@ -329,7 +348,7 @@ private:
     while (this->Done - doneBefore < end - begin && !isDense)
     {
       this->report();
-      isDense = !this->advance(streams);
+      isDense = !this->advance(streams) || this->mayGetFull();
     }
     for (const Stream& stream : streams)
     {
@@ -430,6 +449,7 @@ private:
   Triangulation& Cells;
   const std::vector<Site>& Sites;
   const std::function<void(double share)>& Step;
+  const std::size_t Most; // cells
   std::vector<std::size_t> Order;
   std::size_t Done = 0; // samples inserted
   std::unique_ptr<Locks> Grid;

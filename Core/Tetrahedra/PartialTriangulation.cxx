@@ -254,13 +254,13 @@ void PartialTriangulation::clear(const Execution& execution)
   }
 }
 
-void PartialTriangulation::insert(const Execution& execution, const std::vector<Site>& sites,
-  const std::function<void(double share)>& step)
+bool PartialTriangulation::insert(const Execution& execution, const std::vector<Site>& sites,
+  const std::function<void(double share)>& step, std::size_t most)
 {
   this->Inside->All = std::vector<CellHandle>();
   forEachInOrder(
     execution, sites.size(), [&](std::size_t i) { this->Inside->Unit.add(sites[i].position); });
-  cgal::Insertion(execution, this->Inside->Cells, sites, step).run();
+  return cgal::Insertion(execution, this->Inside->Cells, sites, step, most).run();
 }
 
 void PartialTriangulation::setSides(

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -81,10 +82,13 @@ public:
 
   /// Adds distinct positions, on all threads if oneTBB is available.
   /// @param step(share) called from the calling thread every few milliseconds with the share done
+  /// @param most stops soon after there are more cells; on one thread, always after as many samples
+  /// @returns whether all positions were added
   /// @throws Aborted and what step throws, with some samples added; std::bad_alloc, after which
   /// only destruction is allowed
-  void insert(const Execution& execution, const std::vector<Site>& sites,
-    const std::function<void(double share)>& step);
+  bool insert(const Execution& execution, const std::vector<Site>& sites,
+    const std::function<void(double share)>& step,
+    std::size_t most = std::numeric_limits<std::size_t>::max());
 
   /// Sets the side of the isovalue of each sample. O(samples)
   /// @throws Aborted, after which some are set

@@ -7,6 +7,7 @@
 #include "Core/Base/Region.h"
 #include "Core/Tree/SampleTree.h"
 
+#include <atomic>
 #include <cstddef>
 #include <mutex>
 
@@ -49,10 +50,24 @@ public:
       [this]()
       {
         this->Boxes.resize(this->Tree.usedPairs);
+        bool areOfLeaves = true;
         this->boxOf(this->Tree.nodes[rootNode],
-          [this](std::size_t pair, const Region& box) { this->Boxes[pair] = box; });
+          [&](std::size_t pair, const Region& box)
+          {
+            this->Boxes[pair] = box;
+            areOfLeaves =
+              areOfLeaves && this->hasOnePosition(2 * pair) && this->hasOnePosition(2 * pair + 1);
+          });
+        this->AreOfLeaves.store(areOfLeaves, std::memory_order_release);
       });
   }
+
+  /// Whether compute() has found all samples in split nodes and leaves, whose boxes need no
+  /// regions.
+  bool areOfLeaves() const { return this->AreOfLeaves.load(std::memory_order_acquire); }
+
+  /// The box of a split node, if areOfLeaves().
+  const Region& box(const Node<TSample>& node) const { return this->Boxes[node.childPair]; }
 
   /// Bounds on the offsets from a position to the samples of a leaf or split node.
   /// @param node an element of the tree's nodes, not a copy
@@ -89,6 +104,12 @@ private:
     return box;
   }
 
+  bool hasOnePosition(std::size_t nodeIndex) const
+  {
+    const Node<TSample>& node = this->Tree.nodes[nodeIndex];
+    return node.isSplit() || node.positionsEnd() - node.begin <= 1;
+  }
+
   void require(const Node<TSample>& node) const
   {
     const auto index = static_cast<std::size_t>(&node - this->Tree.nodes.data());
@@ -99,6 +120,7 @@ private:
   RawArray<Region> Boxes;                       // by pair of children
   mutable ConcurrentMemo<Region> BoxesOnDemand; // likewise, of other pairs
   std::once_flag Computed;
+  std::atomic<bool> AreOfLeaves{ false };
 };
 
 } // namespace isopoint

@@ -8,6 +8,7 @@
 #include "Core/Neighbors/VoidCriterion.h"
 #include "Core/Tetrahedra/CrossingTetrahedra.h"
 #include "Core/Triangles/CapFacet.h"
+#include "Core/Triangles/ConnectedVertices.h"
 #include "Core/Triangles/TetrahedronEdges.h"
 
 #include <algorithm>
@@ -158,13 +159,15 @@ public:
   }
 
   /// @param nodes see CrossingTetrahedraFinder
-  /// @throws std::bad_alloc, Aborted, FailedElsewhere, TreeTooLarge
+  /// @throws std::bad_alloc, Aborted, FailedElsewhere, TooManyTetrahedra, TreeTooLarge
   BodyTetrahedra find(const std::vector<BinaryIndex>& nodes, bool dropsGaps)
   {
     BodyTetrahedra body;
     this->Finder.findBody(nodes,
       [&]()
       {
+        body = {}; // of a search that failed
+        this->IsInGap.clear();
         this->Explored.begin();
         if (dropsGaps)
         {
@@ -175,6 +178,9 @@ public:
       });
     return body;
   }
+
+  /// See TetrahedronEdges.
+  std::size_t askedCount() const { return this->Edges.askedCount(); }
 
 private:
   using Spread = GapSpread<TRanks, ExploredTetrahedra<TSample, TRanks>>;
@@ -190,7 +196,7 @@ private:
       { return this->Edges.rejectedAmong(weakVoidCriterion(), some); });
     const std::vector<char> areWeak = ofWeak.takeMarks();
     Spread ofStrong(this->Run, this->Ranks, this->Explored);
-    ofStrong.spread(this->Edges.rejectedAmong(strongVoidCriterion(), markedOf(this->Run, areWeak)),
+    ofStrong.spread(this->strongAmong(areWeak),
       [&](const std::vector<std::size_t>& some)
       {
         return chosenOf(this->Run, some,
@@ -198,6 +204,51 @@ private:
       });
     ofStrong.dropFragments();
     this->IsInGap = ofStrong.takeMarks();
+  }
+
+  /// Of each connected set of weak tetrahedra that has strong ones, some of these. In clouds on
+  /// curves nearly all are in one set: few are asked.
+  std::vector<std::size_t> strongAmong(const std::vector<char>& areWeak)
+  {
+    std::vector<std::size_t> open = markedOf(this->Run, areWeak);
+    ConnectedVertices sets(this->Run, areWeak.size());
+    forEachIndex(this->Run, open.size(),
+      [&](std::size_t i)
+      {
+        this->Explored.forEachNeighbor(open[i],
+          [&](std::size_t other)
+          {
+            if (areWeak[other])
+            {
+              sets.unite(open[i], other);
+            }
+          });
+      });
+    std::vector<std::size_t> seeds;
+    std::vector<char> areSeeded(areWeak.size(), 0); // by root
+    constexpr std::size_t firstCount = 1024;        // of a set
+    for (std::size_t most = firstCount; !open.empty(); most *= 4)
+    {
+      std::vector<std::size_t> counts(areWeak.size(), 0); // by root
+      std::vector<std::size_t> asked;
+      std::vector<std::size_t> others;
+      forEachInOrder(this->Run, open.size(),
+        [&](std::size_t i)
+        {
+          const std::size_t root = sets.rootOf(open[i]);
+          if (!areSeeded[root])
+          {
+            (counts[root]++ < most ? asked : others).push_back(open[i]);
+          }
+        });
+      for (const std::size_t strong : this->Edges.rejectedAmong(strongVoidCriterion(), asked))
+      {
+        areSeeded[sets.rootOf(strong)] = 1;
+        seeds.push_back(strong);
+      }
+      open.swap(others);
+    }
+    return seeds;
   }
 
   void collect(BodyTetrahedra& body) const

@@ -63,7 +63,8 @@ public:
   {
   }
 
-  /// @throws Aborted, std::bad_alloc, or TreeTooLarge (see NarrowBand); the tree stays usable
+  /// @throws Aborted, std::bad_alloc, TooManyTetrahedra, or TreeTooLarge (see NarrowBand); the tree
+  /// stays usable
   TriangleSurface extract()
   {
     if (this->Tree.isEmpty())
@@ -103,13 +104,30 @@ public:
   /// The tetrahedra and facets that the surface of the body consists of.
   BodyTetrahedra bodyTetrahedra(const Execution& execution)
   {
-    return this->withFinder(execution,
-      [this](const Execution& part, CrossingTetrahedraFinder<TSample, TRanks>& finder,
+    std::size_t askedCount = 0;
+    BodyTetrahedra found = this->withFinder(execution,
+      [&](const Execution& part, CrossingTetrahedraFinder<TSample, TRanks>& finder,
         const std::vector<BinaryIndex>& nodes)
       {
-        return BodyFinder<TSample, TRanks>(part, this->Tree, this->Ranks, finder)
-          .find(nodes, this->Request.dropsGaps);
+        BodyFinder<TSample, TRanks> bodyFinder(part, this->Tree, this->Ranks, finder);
+        BodyTetrahedra body = bodyFinder.find(nodes, this->Request.dropsGaps);
+        askedCount = bodyFinder.askedCount();
+        return body;
       });
+    this->Counts.edges = askedCount;
+    return found;
+  }
+
+  /// Drops the crossing tetrahedra in gaps.
+  void dropGaps(const Execution& execution, std::vector<LeafTetrahedron>& found)
+  {
+    this->Ranks.order(found);
+    const std::size_t count = found.size();
+    GapTetrahedraFinder<TSample, TRanks> finder(
+      execution, this->Tree, this->Ranks, found, this->Request.keepsHullSlivers);
+    dropMarked(execution, finder.find(), found);
+    this->Counts.edges = finder.askedCount();
+    this->Dropped = count - found.size();
   }
 
   const TetrahedraCounts& counts() const { return this->Counts; }
@@ -124,8 +142,8 @@ private:
       NarrowBand<TSample>(this->Tree, this->Request.isovalue, partOf(execution, 0.0, bandEnd))
         .refine(this->Ranks);
     const Execution part = partOf(execution, bandEnd, 1.0);
-    CrossingTetrahedraFinder<TSample, TRanks> finder(
-      part, this->Tree, this->Ranks, this->Values, this->Request.isovalue, this->Kept);
+    CrossingTetrahedraFinder<TSample, TRanks> finder(part, this->Tree, this->Ranks, this->Values,
+      this->Request.isovalue, this->Kept, this->Request.tetrahedraLimit);
     auto found = find(part, finder, nodes);
     if (!this->Request.keepsTetrahedra)
     {
@@ -232,18 +250,6 @@ private:
         chosenOf(this->Run, edges, unknown), chosenOf(this->Run, mesh.positions, unknown));
     forEachIndex(execution, unknown.size(), [&](std::size_t i) { fits[unknown[i]] = others[i]; });
     return fits;
-  }
-
-  void dropGaps(const Execution& execution, std::vector<LeafTetrahedron>& found)
-  {
-    this->Ranks.order(found);
-    const std::size_t count = found.size();
-    dropMarked(execution,
-      GapTetrahedraFinder<TSample, TRanks>(
-        execution, this->Tree, this->Ranks, found, this->Request.keepsHullSlivers)
-        .find(),
-      found);
-    this->Dropped = count - found.size();
   }
 
   /// Moves vertices by their fits unless a triangle turns over.

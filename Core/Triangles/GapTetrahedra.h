@@ -2,9 +2,9 @@
 #pragma once
 
 #include "Core/Base/Execution.h"
+#include "Core/Base/Hash.h"
 #include "Core/Base/Lists.h"
 #include "Core/Base/Offset.h"
-#include "Core/Base/Sorting.h"
 #include "Core/Neighbors/GapCriterion.h"
 #include "Core/Neighbors/GapSpread.h"
 #include "Core/Neighbors/VoidCriterion.h"
@@ -15,7 +15,9 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace isopoint
@@ -43,12 +45,23 @@ public:
         execution, this->NodeCount, this->size(), [this](std::size_t item) -> const auto& {
           return this->Tetrahedra[item].corners;
         });
+      if (this->haveManyAtAllCorners(execution))
+      {
+        this->AtFacets.emplace(execution, this->size(), this->size(),
+          [this](std::size_t item)
+          {
+            const auto& corners = this->Tetrahedra[item].corners;
+            return std::array{ this->facetKey(corners, corners[0]),
+              this->facetKey(corners, corners[1]), this->facetKey(corners, corners[2]),
+              this->facetKey(corners, corners[3]) };
+          });
+      }
     }
   }
 
   bool isConnected(std::size_t /*tetrahedron*/) const { return this->AtLeaves.has_value(); }
 
-  /// O(tetrahedra at a corner)
+  /// O(1) mostly
   template <class Visit>
   void forEachNeighbor(std::size_t tetrahedron, const Visit& visit) const
   {
@@ -64,11 +77,38 @@ public:
   }
 
 private:
+  using Corners = std::array<std::size_t, 4>;
+
+  /// Whether a tetrahedron has many others at each corner, as all have in clouds on curves.
+  bool haveManyAtAllCorners(const Execution& execution) const
+  {
+    constexpr std::size_t many = 256;
+    bool haveMany = false;
+    forEachInOrder(execution, this->size(),
+      [&](std::size_t tetrahedron)
+      {
+        const Corners& corners = this->Tetrahedra[tetrahedron].corners;
+        haveMany =
+          haveMany || std::all_of(corners.begin(), corners.end(),
+                        [&](std::size_t leaf) { return this->AtLeaves->at(leaf).count > many; });
+      });
+    return haveMany;
+  }
+
+  /// A key of the facet opposite a corner, which few others have.
+  std::size_t facetKey(Corners corners, std::size_t opposite) const
+  {
+    std::swap(*std::find(corners.begin(), corners.end(), opposite), corners.back());
+    std::sort(corners.begin(), corners.end() - 1);
+    return hashOf(std::array<std::uint64_t, 3>{ corners[0], corners[1], corners[2] }.data(), 3) %
+           this->size();
+  }
+
   /// Visits the tetrahedron across the facet opposite a corner, if there is one.
   template <class Visit>
   void visitAcross(std::size_t tetrahedron, std::size_t opposite, const Visit& visit) const
   {
-    const auto& corners = this->Tetrahedra[tetrahedron].corners;
+    const Corners& corners = this->Tetrahedra[tetrahedron].corners;
     // Searches at the corner with the fewest tetrahedra: one in a void has very many.
     std::size_t shared = corners[0] == opposite ? corners[1] : corners[0];
     for (const std::size_t leaf : corners)
@@ -76,7 +116,10 @@ private:
       const bool hasFewer = this->AtLeaves->at(leaf).count < this->AtLeaves->at(shared).count;
       shared = leaf != opposite && hasFewer ? leaf : shared;
     }
-    for (const std::size_t other : this->AtLeaves->at(shared))
+    const IndexSpan<std::size_t> candidates =
+      this->AtFacets ? this->AtFacets->at(this->facetKey(corners, opposite))
+                     : this->AtLeaves->at(shared);
+    for (const std::size_t other : candidates)
     {
       const auto& otherCorners = this->Tetrahedra[other].corners;
       const auto isShared = [&](std::size_t corner)
@@ -94,6 +137,7 @@ private:
   const std::vector<LeafTetrahedron>& Tetrahedra;
   const std::size_t NodeCount;
   std::optional<ItemLists> AtLeaves; // tetrahedra; built when a gap is found
+  std::optional<ItemLists> AtFacets; // by key; only if lists at leaves are long
 };
 
 /// Finds the crossing tetrahedra that lie in gaps of the cloud or outside of it: docs/triangles.md.
@@ -122,38 +166,54 @@ public:
   {
     ConnectedTetrahedra connected(this->Tetrahedra, this->Tree.nodes.size());
     GapSpread<TRanks, ConnectedTetrahedra> spread(this->Run, this->Ranks, connected);
-    spread.spread(this->seeds(),
-      [this](const std::vector<std::size_t>& some)
-      {
-        return this->KeepsHullSlivers ? this->Edges.rejectedAmong(weakVoidCriterion(), some)
-                                      : this->Edges.rejectedAmong(RimCriterion(), some);
-      });
+    const auto weakAmong = [this](const std::vector<std::size_t>& some)
+    {
+      return this->KeepsHullSlivers ? this->Edges.rejectedAmong(weakVoidCriterion(), some)
+                                    : this->Edges.rejectedAmong(RimCriterion(), some);
+    };
+    if (!this->KeepsHullSlivers)
+    {
+      spread.spread(itemsThat(this->Run, this->Tetrahedra.size(),
+                      [&](std::size_t i) { return this->Tetrahedra[i].isAtHull; }),
+        weakAmong);
+    }
+    // Strong tetrahedra are weak, too. In clouds on curves nearly all are in one gap: few are
+    // asked.
+    constexpr std::size_t firstPart = 65536;
+    std::vector<std::size_t> open = this->candidates();
+    for (std::size_t most = firstPart; !open.empty(); most *= 2)
+    {
+      open = chosenThat(this->Run, open, [&](std::size_t i) { return !spread.isReached(i); });
+      const std::size_t count = std::min(most, open.size());
+      spread.spread(this->strongAmong({ open.data(), open.data() + count }), weakAmong);
+      open.erase(open.begin(), open.begin() + static_cast<std::ptrdiff_t>(count));
+    }
     spread.dropFragments();
     return spread.takeMarks();
   }
 
+  /// See TetrahedronEdges.
+  std::size_t askedCount() const { return this->Edges.askedCount(); }
+
 private:
-  /// The tetrahedra from which gaps spread. If slivers are kept, these span a void; otherwise the
-  /// strong criterion rejects them, or they are at the hull.
-  std::vector<std::size_t> seeds()
+  /// Those from which gaps spread. If slivers are kept, these span a void.
+  std::vector<std::size_t> strongAmong(const std::vector<std::size_t>& some)
+  {
+    return this->KeepsHullSlivers ? this->Edges.rejectedAmong(strongVoidCriterion(), some)
+                                  : this->Edges.rejectedAmong(GapCriterion::strong(), some);
+  }
+
+  /// Those that may be strong.
+  std::vector<std::size_t> candidates()
   {
     const std::vector<char> isDense = this->denseLeaves();
-    const std::vector<std::size_t> candidates = itemsThat(this->Run, this->Tetrahedra.size(),
+    return itemsThat(this->Run, this->Tetrahedra.size(),
       [&](std::size_t i)
       {
         const auto& corners = this->Tetrahedra[i].corners;
         return std::count_if(corners.begin(), corners.end(),
                  [&](std::size_t leaf) { return isDense[leaf] != 0; }) >= 2;
       });
-    if (this->KeepsHullSlivers)
-    {
-      return this->Edges.rejectedAmong(strongVoidCriterion(), candidates);
-    }
-    std::vector<std::size_t> seeds = this->Edges.rejectedAmong(GapCriterion::strong(), candidates);
-    const std::vector<std::size_t> atHull = itemsThat(this->Run, this->Tetrahedra.size(),
-      [&](std::size_t i) { return this->Tetrahedra[i].isAtHull; });
-    seeds.insert(seeds.end(), atHull.begin(), atHull.end());
-    return sortedUnique(this->Run, seeds, this->Tetrahedra.size());
   }
 
   /// Marks, by node, the leaves whose longest edge the strong criterion may reject. Clouds without

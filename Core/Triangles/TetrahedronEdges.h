@@ -20,7 +20,7 @@
 namespace isopoint
 {
 
-/// Applies criteria to the edges of tetrahedra, to each edge once. With a process group, all
+/// Applies criteria to the edges of tetrahedra, to each edge mostly once. With a process group, all
 /// functions are collective.
 /// @tparam TRanks SingleRank, or SharedRanks
 template <class TSample, class TRanks>
@@ -47,25 +47,24 @@ public:
   std::vector<std::size_t> rejectedAmong(
     const TCriterion& criterion, const std::vector<std::size_t>& tetrahedra)
   {
-    std::vector<Edge> edges(6 * tetrahedra.size());
-    forEachIndex(this->Run, tetrahedra.size(),
-      [&](std::size_t i)
-      {
-        const std::array<Edge, 6> six = this->edgesBetween(this->CornersOf(tetrahedra[i]));
-        std::copy(six.begin(), six.end(), &edges[6 * i]);
-      });
-    const std::vector<Edge> rejected = this->rejectedOf(criterion, edges);
-    return chosenOf(this->Run, tetrahedra,
-      itemsThat(this->Run, tetrahedra.size(),
-        [&](std::size_t i)
-        {
-          return std::any_of(&edges[6 * i], &edges[6 * i] + 6,
-            [&](const Edge& edge)
-            { return std::binary_search(rejected.begin(), rejected.end(), edge); });
-        }));
+    std::vector<std::size_t> found;
+    for (std::size_t begin = 0; begin < tetrahedra.size(); begin += partSize)
+    {
+      const std::size_t count = std::min(partSize, tetrahedra.size() - begin);
+      const std::vector<std::size_t> part = this->rejectedIn(criterion, &tetrahedra[begin], count);
+      found.insert(found.end(), part.begin(), part.end());
+    }
+    return found;
   }
 
+  /// How many edges were asked, with repetitions.
+  std::size_t askedCount() const { return this->AskedCount; }
+
 private:
+  /// Edges of this many tetrahedra are listed at once: of these each is asked once. They take 200
+  /// bytes for each tetrahedron, and as much for sorting.
+  static constexpr std::size_t partSize = std::size_t{ 1 } << 18;
+
   /// Edges are ordered by the tree indices of their ends.
   struct Edge
   {
@@ -93,6 +92,31 @@ private:
     return edges;
   }
 
+  /// Those of some tetrahedra with an edge that a criterion rejects.
+  template <class TCriterion>
+  std::vector<std::size_t> rejectedIn(
+    const TCriterion& criterion, const std::size_t* tetrahedra, std::size_t count)
+  {
+    std::vector<Edge> edges(6 * count);
+    forEachIndex(this->Run, count,
+      [&](std::size_t i)
+      {
+        const std::array<Edge, 6> six = this->edgesBetween(this->CornersOf(tetrahedra[i]));
+        std::copy(six.begin(), six.end(), &edges[6 * i]);
+      });
+    const std::vector<Edge> rejected = this->rejectedOf(criterion, edges);
+    std::vector<std::size_t> found = itemsThat(this->Run, count,
+      [&](std::size_t i)
+      {
+        return std::any_of(&edges[6 * i], &edges[6 * i] + 6,
+          [&](const Edge& edge)
+          { return std::binary_search(rejected.begin(), rejected.end(), edge); });
+      });
+    std::transform(
+      found.begin(), found.end(), found.begin(), [&](std::size_t i) { return tetrahedra[i]; });
+    return found;
+  }
+
   /// The edges that a criterion rejects, ordered. The rank that owns the first end asks it.
   /// @param edges with repetitions
   template <class TCriterion>
@@ -100,6 +124,11 @@ private:
   {
     const std::vector<Edge> distinct = sortedUnique(this->Run, edges, this->Tree.samples.size(),
       [](const Edge& edge) { return edge.treeIndices[0]; });
+    this->AskedCount += distinct.size();
+    if (distinct.size() > this->Tree.samples.size()) // samples on lines
+    {
+      this->Bounds.compute();
+    }
     std::vector<std::size_t> found = itemsThat(this->Run, this->Ranks, distinct.size(),
       [&](std::size_t i)
       {
@@ -123,10 +152,10 @@ private:
   {
     return criterion.rejects(this->Tree, this->Bounds, this->Tree.sampleOf(leaves[0]),
       this->Tree.sampleOf(leaves[1]),
-      std::max(this->spacingAt(leaves[0]), this->spacingAt(leaves[1])));
+      std::array{ this->spacingAt(leaves[0]), this->spacingAt(leaves[1]) });
   }
 
-  double spacingAt(std::size_t leaf)
+  SampleSpacing spacingAt(std::size_t leaf)
   {
     return this->Spacings.at(
       leaf, [&]() { return SpacingSearch<TSample>(this->Tree, this->Tree.sampleOf(leaf)).find(); });
@@ -137,7 +166,8 @@ private:
   SampleBounds<TSample> Bounds;
   TRanks& Ranks;
   const std::function<Corners(std::size_t)> CornersOf;
-  ConcurrentMemo<double> Spacings; // by leaf
+  ConcurrentMemo<SampleSpacing> Spacings; // by leaf
+  std::size_t AskedCount = 0;
 };
 
 } // namespace isopoint

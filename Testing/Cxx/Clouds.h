@@ -312,6 +312,61 @@ inline Cloud lines(std::size_t count, std::size_t lineCount, int steps, std::uin
   return cloud;
 }
 
+/// The curve (t, t^2, t^3), with the values t: its tetrahedralization has quadratic size.
+inline Cloud momentCurve(std::size_t count)
+{
+  Cloud cloud;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double t = static_cast<double>(i) / static_cast<double>(count - 1);
+    cloud.add(t, t * t, t * t * t, t);
+  }
+  return cloud;
+}
+
+/// Several turns around the z axis, with the values z.
+inline Cloud helix(std::size_t count)
+{
+  Cloud cloud;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double z = static_cast<double>(i) / static_cast<double>(count - 1);
+    cloud.add(std::cos(40.0 * z), std::sin(40.0 * z), z, z);
+  }
+  return cloud;
+}
+
+/// Two skew lines at right angles, with values along both.
+inline Cloud twoSkewLines(std::size_t count)
+{
+  Cloud cloud;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double place = static_cast<double>(i / 2) / static_cast<double>((count + 1) / 2 - 1);
+    i % 2 ? cloud.add(0.5, place - 0.5, 1.0, place) : cloud.add(place, 0.0, 0.0, place);
+  }
+  return cloud;
+}
+
+/// Straight wells, as deep as half the width of the field and tilted by up to 20 degrees, with the
+/// depth as values.
+inline Cloud tiltedWells(std::size_t wellCount, std::size_t countOfWell, std::uint64_t seed)
+{
+  Random random(seed);
+  Cloud cloud;
+  for (std::size_t well = 0; well < wellCount; ++well)
+  {
+    const Vector top{ random(), random(), 0.0 };
+    const Vector step{ 0.6 * (random() - 0.5), 0.6 * (random() - 0.5), -1.0 };
+    for (std::size_t i = 0; i < countOfWell; ++i)
+    {
+      const double depth = 0.5 * static_cast<double>(i) / static_cast<double>(countOfWell - 1);
+      cloud.add(top + depth * step, depth);
+    }
+  }
+  return cloud;
+}
+
 /// Two layers of parallel lines, one above the other, at right angles to each other.
 inline Cloud combs(std::size_t count, int teeth, std::uint64_t seed)
 {

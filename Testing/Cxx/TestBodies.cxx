@@ -118,7 +118,13 @@ std::vector<Case> allCases()
     }
     cases.push_back({ tetrahedron, isovalue, true });
   }
-  while (cases.size() < 80)
+  for (const Cloud& cloud : { clouds::momentCurve(120), clouds::helix(130),
+         clouds::twoSkewLines(100), clouds::tiltedWells(6, 30, 1) })
+  {
+    cases.push_back({ cloud, -infinity, true });
+    cases.push_back({ cloud, 0.3, true });
+  }
+  while (cases.size() < 88)
   {
     clouds::Dice dice(++seed);
     const Cloud cloud = clouds::randomCloud(dice, seed);
@@ -330,6 +336,78 @@ TEST(Bodies, AreTheSameHoweverTheyAreFound)
       ranks::allDeals[index % ranks::allDeals.size()], { request, requestOf(other) });
     ++index;
   }
+}
+
+/// Each pair of short pieces of a curve has a tetrahedron.
+TEST(Bodies, OfTooManyTetrahedraAreOneErrorHoweverTheyAreFound)
+{
+  const auto limited = [](isopoint::ExtractionRequest request, std::size_t most)
+  {
+    request.isosurface.tetrahedraLimit = { most, 1 };
+    return request;
+  };
+  constexpr std::size_t count = 300;
+  const Cloud curve = clouds::momentCurve(count);
+  const std::size_t most = count * count / 4; // half of them
+  for (const auto& request : { requestOf(-infinity, true), requestOf(-infinity, false),
+         requestOf(0.5, true), clouds::withTriangles(clouds::requestOf(0.5)),
+         clouds::withTriangles(clouds::requestOf(0.9)) })
+  {
+    const auto expected = contentsOf(clouds::extracted(curve, request));
+    EXPECT_TRUE(contentsOf(clouds::extracted(curve, limited(request, 4 * most))) == expected);
+    EXPECT_TRUE(contentsOf(clouds::extracted(curve, limited(request, 3 * most))) == expected);
+    for (const std::size_t threads : { 1, 3 })
+    {
+      const auto run = clouds::executionOn(threads);
+      auto extractor = clouds::loaded(curve);
+      EXPECT_THROW(extractor.extract(run, limited(request, most)), isopoint::TooManyTetrahedra);
+      EXPECT_TRUE(contentsOf(extractor.extract(run, request)) == expected);
+      if (request.isosurface.isovalue != -infinity)
+      {
+        auto first = clouds::loaded(curve);
+        first.extract(run, requestOf(-infinity, true)); // whose tetrahedra are kept
+        EXPECT_TRUE(contentsOf(first.extract(run, request)) == expected);
+      }
+    }
+    for (const std::size_t size : { 2, 3, 5 })
+    {
+      const auto pieces = ranks::dealOut(curve, size, ranks::Deal::RoundRobin);
+      ranks::onRanks(size,
+        [&](isopoint::ProcessGroup& processes, std::size_t rank)
+        {
+          isopoint::IsosurfaceExtractor extractor;
+          extractor.load<double, double>(
+            {}, processes, pieces[rank].size(), clouds::readerOf(pieces[rank]));
+          EXPECT_THROW(extractor.extract({}, limited(request, most)), isopoint::TooManyTetrahedra);
+          EXPECT_NO_THROW(extractor.extract({}, limited(request, 4 * most)));
+        });
+    }
+  }
+}
+
+/// Where all samples would be quicker, but are too many, those near the surface are enough.
+TEST(Bodies, BesideCurvesAreNoError)
+{
+  Cloud cloud = clouds::uniform(3000, 31);
+  clouds::Random random(32);
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    const auto [x, y, z] = cloud.at(i);
+    const double outward = std::max({ std::abs(x - 0.5), std::abs(y - 0.5), std::abs(z - 0.5) });
+    cloud.values[i] = outward < 0.43 && random() < 0.5 ? 0.0 : 1.0;
+  }
+  const Cloud curve = clouds::momentCurve(500);
+  for (std::size_t i = 0; i < curve.size(); ++i)
+  {
+    cloud.add(curve.at(i)[0] + 10.0, curve.at(i)[1], curve.at(i)[2], 1.0);
+  }
+  auto request = clouds::withTriangles(clouds::requestOf(0.5));
+  const auto expected = contentsOf(clouds::extracted(cloud, request));
+  request.isosurface.tetrahedraLimit = { 90000, 1 };
+  EXPECT_TRUE(contentsOf(clouds::extracted(cloud, request)) == expected);
+  request = requestOf(-infinity, true);
+  request.isosurface.tetrahedraLimit = { 90000, 1 };
+  EXPECT_THROW(clouds::extracted(cloud, request), isopoint::TooManyTetrahedra);
 }
 
 /// Only equal diagonals and first edges depend on ids.

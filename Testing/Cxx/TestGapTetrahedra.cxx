@@ -65,6 +65,10 @@ TEST(GapTetrahedra, AreThoseOfTheDefinition)
   EXPECT_GT(expectSame(comb, 0.5), 100u);
   expectSame(clouds::clustered(1500, 2), -4.0);
   EXPECT_GT(expectSame(clouds::lines(1500, 20, 0, 3), 0.3), 0u);
+  EXPECT_GT(expectSame(clouds::momentCurve(150), 0.5), 100u);
+  EXPECT_GT(expectSame(clouds::helix(420), 0.5), 100u); // hundreds of tetrahedra at each sample
+  EXPECT_GT(expectSame(clouds::twoSkewLines(150), 0.4), 100u);
+  expectSame(clouds::tiltedWells(8, 40, 1), 0.2);
   expectSame(clouds::uniform(2000, 4), 0.3);
   expectSame(clouds::lattice(10, 11, 12), 2.0);
   expectSame(clouds::coincident(clouds::uniform(1000, 5), 0.6), 0.3);

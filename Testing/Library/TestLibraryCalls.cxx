@@ -18,6 +18,30 @@
 
 using namespace librarytesting;
 
+TEST(Library, CurvesHaveTooManyTetrahedra)
+{
+  Cloud curve(0);
+  constexpr int count = 3000;
+  for (int i = 0; i < count; ++i)
+  {
+    const double t = static_cast<double>(i) / count;
+    curve.positions.insert(curve.positions.end(), { t, t * t, t * t * t });
+    curve.values.push_back(t);
+  }
+  const Extractor extractor(curve);
+  const double isovalue = 0.5;
+  isopoint_surface* surface = nullptr;
+  expectInvalid(
+    isopoint_extract(extractor.get(), &isovalue, 1, &withTriangles, &surface), "on curves");
+  for (const char* const remedy : { "points", "probe", "average", "radial basis functions" })
+  {
+    expectContains(isopoint_get_error(), remedy);
+  }
+  EXPECT_EQ(surface, nullptr);
+  EXPECT_EQ(isopoint_extract(extractor.get(), &isovalue, 1, &defaults, &surface), ISOPOINT_OK);
+  isopoint_destroy_surface(surface);
+}
+
 TEST(Library, InvalidOptionsAreErrors)
 {
   const Extractor extractor((Cloud()));

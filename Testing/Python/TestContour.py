@@ -203,6 +203,17 @@ class ContourTest(unittest.TestCase):
         near = np.array([np.sqrt(((water - center) ** 2).sum(axis=1).min()) for center in centers])
         self.assertLess(near.max(), 3 * spacing)
 
+    def test_curves_have_too_many_tetrahedra(self):
+        t = np.linspace(0, 1, 3000)
+        curve = np.column_stack([t, t**2, t**3])
+        samples = Samples(curve, t)
+        for call in (lambda: body(curve), lambda: samples.contour(0.5, triangles=True)):
+            with self.assertRaisesRegex(ValueError, "tetrahedra .more than 4000000 for 3000 samples.*curves.* points"
+                                                    ".*probe.*average.*radial basis functions"):
+                call()
+        self.assertGreater(len(samples.contour(0.5).points), 0)
+        self.assertGreater(len(body(curve[::10]).points), 0)
+
     def test_layers_and_lines_have_bodies(self):
         """Two layers of a lattice far apart, as of a simulation one cell thick, and wells."""
         axes = np.arange(0, 1.001, 0.02), np.arange(0, 0.6, 0.02), [0, 0.25]

@@ -538,6 +538,15 @@ class Filters(FilterTests):
                     self.assertEqual([getattr(filter_, "GetNumberOf" + name)() for name in (
                         "SkippedSamples", "Samples", "ExtractedPoints")], [0, 0, 0])
 
+    def test_curves_have_too_many_tetrahedra(self):
+        t = np.linspace(0, 1, 3000)
+        data = cloud_of(np.column_stack([t, t**2, t**3]), t, "distance")
+        filter_ = configured(self.kinds[1], data, [0.5])
+        self.assert_one(self.texts_of(filter_, "ErrorEvent"), "too many tetrahedra", "curves", "points", "probe",
+                        "average", "radial basis functions")
+        self.assertEqual(filter_.GetErrorCode(), errno.EINVAL)
+        self.assertEqual(filter_.GetOutputDataObject(0).GetNumberOfElements(POINTS), 0)
+
     # Pieces
 
     def test_pieces(self):
