@@ -226,6 +226,7 @@ void vtkMakeIsopointGrid(const vtkIsopointGrid& grid, const int extent[6], vtkIm
   {
     throw isopoint::UsageError(tooManyPoints);
   }
+  output->GetPointData()->Initialize(); // images keep the scalars of the last update
   output->SetOrigin(grid.Origin);
   output->SetSpacing(grid.Spacing);
   output->SetExtent(const_cast<int*>(extent));

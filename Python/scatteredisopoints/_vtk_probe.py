@@ -316,6 +316,7 @@ class vtkScatteredGridFilter(vtkScatteredProbeFilter):
             self.Modified()  # so that filters downstream hear of it before they ask again
         if math.prod(float(high - low + 1) for low, high in zip(extent[::2], extent[1::2])) > MOST_POINTS:
             raise ValueError(TOO_MANY_POINTS)
+        output.GetPointData().Initialize()  # images keep the scalars of the last update
         output.SetOrigin(origin)
         output.SetSpacing(spacing)
         output.SetExtent(extent)

@@ -134,7 +134,7 @@ def grids_of_chosen_arrays_without_errors():
     """Images of samples in a plane, of one, and of others, whose extent the samples determine: the extent that is
     announced downstream is that of the data."""
     places = np.random.default_rng(3).random((500, 3))
-    for scale, expected in (((2, 1, 0), (99, 50, 0)), ((0, 0, 0), (0, 0, 0)), ((1, 2, 3), (33, 66, 99))):
+    for scale, expected in (((2, 1, 0), (99, 50, 0)), ((0, 0, 0), (0, 0, 0))):
         samples = vtk_data.cloud_of(np.vstack([np.zeros(3), places, np.ones(3)]) * scale, np.arange(502.0), "first")
         samples.GetPointData().AddArray(named("second", np.arange(502.0)))
         view = simple.CreateView("RenderView")

@@ -49,8 +49,9 @@ for name in ("points", "surface", "probe", "line", "grid", "gradient", "slice", 
     print("found:", name, data.GetNumberOfPoints(), data.GetBounds(), *(
         hashlib.sha256(vtk_to_numpy(array)).hexdigest()[:16] for array in (points, *(arrays if name != "points" else ()))
         if array))
-    names = [n for n in source.ListProperties() if n not in ("Input", "UseGlobalController", "AreSplatsApart")]
-    print("found:", *(f"{n}={source.GetPropertyValue(n)}" for n in sorted(names) if n not in ("SliceType", "DestinationMesh")
+    names = [n for n in source.ListProperties() if n not in (
+        "Input", "Samples", "DestinationMesh", "UseGlobalController", "AreSplatsApart")]
+    print("found:", *(f"{n}={source.GetPropertyValue(n)}" for n in sorted(names) if n != "SliceType"
                       and (not n.startswith("NumberOf") or n == "NumberOfNeighbors")))
     proxy = source.SMProxy
     print("found:", proxy.GetXMLName(), proxy.GetXMLLabel(), proxy.GetDocumentation().GetDescription()[:60].strip())
