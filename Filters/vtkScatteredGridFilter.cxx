@@ -5,6 +5,7 @@
 #include "Input/vtkIsopointBlocks.h"
 #include "Output/vtkIsopointPlaces.h"
 #include "Update/vtkIsopointProbing.h"
+#include "Update/vtkIsopointUpdate.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkDataArray.h"
@@ -103,7 +104,7 @@ int vtkScatteredGridFilter::RequestInformation(
 
 /// The extent is known when the samples are. Until then it is that of the last update if nothing
 /// changed, or follows from bounds of the present data. MakePlaces() corrects it.
-void vtkScatteredGridFilter::GuessExtent(vtkInformation* inputInfo, int extent[6]) const
+void vtkScatteredGridFilter::GuessExtent(vtkInformation* inputInfo, int extent[6])
 {
   vtkDataObject* const input = vtkDataObject::GetData(inputInfo);
   if (input && input->GetMTime() == this->LastInputTime && this->DescribeGrid() == this->LastGrid)
@@ -125,7 +126,8 @@ void vtkScatteredGridFilter::GuessExtent(vtkInformation* inputInfo, int extent[6
     }
   }
   double bounds[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 };
-  if (box.IsValid())
+  this->IsGuessOfData = box.IsValid() != 0;
+  if (this->IsGuessOfData)
   {
     box.GetBounds(bounds);
   }
@@ -176,14 +178,28 @@ void vtkScatteredGridFilter::MakePlaces(
   {
     this->Probing->FindBounds(bounds);
   }
-  const vtkIsopointGrid grid = vtkFindIsopointGrid(bounds, this->SamplingDimensions, this->Spacing);
+  int announced[6];
+  outputInfo->Get(Pipeline::WHOLE_EXTENT(), announced);
+  vtkIsopointGrid grid = vtkFindIsopointGrid(bounds, this->SamplingDimensions, this->Spacing);
+  if (this->IsGuessOfData && this->Updater->GetProcesses().size() == 1)
+  {
+    // Filters downstream do not hear of another extent, as of samples that move.
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const int steps = announced[2 * axis + 1];
+      const bool isAutomatic = this->SamplingDimensions[axis] == 0 && this->Spacing[axis] == 0.0;
+      if (isAutomatic && steps > 0 && grid.Extent[2 * axis + 1] > 0)
+      {
+        grid.Extent[2 * axis + 1] = steps;
+        grid.Spacing[axis] = (bounds[2 * axis + 1] - bounds[2 * axis]) / steps;
+      }
+    }
+  }
   std::copy_n(grid.Extent, 6, this->LastExtent);
   this->LastGrid = this->DescribeGrid();
   this->LastInputTime = vtkDataObject::GetData(inputVector[0])->GetMTime();
 
-  int announced[6];
   int extent[6];
-  outputInfo->Get(Pipeline::WHOLE_EXTENT(), announced);
   outputInfo->Get(Pipeline::UPDATE_EXTENT(), extent);
   if (!std::equal(announced, announced + 6, grid.Extent))
   {
@@ -201,7 +217,6 @@ void vtkScatteredGridFilter::MakePlaces(
     }
     outputInfo->Set(Pipeline::WHOLE_EXTENT(), grid.Extent, 6);
     outputInfo->Set(Pipeline::UPDATE_EXTENT(), extent, 6);
-    this->Modified(); // so that filters downstream hear of it before they ask again
   }
   vtkMakeIsopointGrid(grid, extent, vtkImageData::SafeDownCast(vtkDataObject::GetData(outputInfo)));
 }

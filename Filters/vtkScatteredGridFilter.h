@@ -10,7 +10,8 @@
  * samples do. Hidden points have the value of the nearest sample (CLOSEST_POINT is the default
  * here), because NaN would spread to the normals of contours. Axes along which the bounds have no
  * length get one layer of points. By default voxels are cubes, with 100 points along the longest
- * side.
+ * side. Where bounds change later, the numbers of points stay, until the filter or its input is
+ * modified.
  *
  * If a piece of the output is requested, it is a box of the image. In a process group (see
  * SetController()) the bounds are those of the samples of all ranks.
@@ -106,10 +107,11 @@ protected:
 
 private:
   std::string DescribeGrid() const;
-  void GuessExtent(vtkInformation* inputInfo, int extent[6]) const;
+  void GuessExtent(vtkInformation* inputInfo, int extent[6]);
 
   std::set<std::string> Arrays;
   int LastExtent[6];              // of the whole image
+  bool IsGuessOfData = false;
   std::string LastGrid;           // what it was found for
   vtkMTimeType LastInputTime = 0; // likewise
 

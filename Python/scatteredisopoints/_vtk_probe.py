@@ -246,6 +246,7 @@ class vtkScatteredGridFilter(vtkScatteredProbeFilter):
     def __init__(self):
         super().__init__()
         self._chosen: set[str] = set()
+        self._is_guess_of_data = False
         self._last: Any = None  # the key and the extent of the last whole image
 
     def AddArray(self, name: str) -> None:
@@ -283,7 +284,8 @@ class vtkScatteredGridFilter(vtkScatteredProbeFilter):
                 if leaf.IsA("vtkDataSet") and leaf.GetNumberOfPoints() > 0:
                     box.AddBounds(leaf.GetBounds())
         bounds = [0.0, 1.0, 0.0, 1.0, 0.0, 1.0]
-        if box.IsValid():
+        self._is_guess_of_data = bool(box.IsValid())
+        if self._is_guess_of_data:
             box.GetBounds(bounds)
         try:
             return _grid_in(bounds, self._values["SamplingDimensions"], self._values["Spacing"])[0]
@@ -300,8 +302,15 @@ class vtkScatteredGridFilter(vtkScatteredProbeFilter):
         pipeline, info = vtkStreamingDemandDrivenPipeline, self.GetOutputInformation(0)
         bounds = _bounds_of(samples) if self._values["UseInputBounds"] else self._values["SamplingBounds"]
         whole, origin, spacing = _grid_in(bounds, self._values["SamplingDimensions"], self._values["Spacing"])
-        self._last = self._grid_key(), whole
         announced, extent = (list(info.Get(key)) for key in (pipeline.WHOLE_EXTENT(), pipeline.UPDATE_EXTENT()))
+        for axis in range(3) if self._is_guess_of_data else ():
+            # Filters downstream do not hear of another extent, as of samples that move.
+            steps = announced[2 * axis + 1]
+            is_automatic = self._values["SamplingDimensions"][axis] == 0 and self._values["Spacing"][axis] == 0.0
+            if is_automatic and steps > 0 and whole[2 * axis + 1] > 0:
+                whole[2 * axis + 1] = steps
+                spacing[axis] = (bounds[2 * axis + 1] - bounds[2 * axis]) / steps
+        self._last = self._grid_key(), whole
         if announced != whole:
             pieces = info.Get(pipeline.UPDATE_NUMBER_OF_PIECES())
             if pieces > 1:
@@ -313,7 +322,6 @@ class vtkScatteredGridFilter(vtkScatteredProbeFilter):
                 extent = _cut(whole, announced, extent)
             info.Set(pipeline.WHOLE_EXTENT(), whole, 6)
             info.Set(pipeline.UPDATE_EXTENT(), extent, 6)
-            self.Modified()  # so that filters downstream hear of it before they ask again
         if math.prod(float(high - low + 1) for low, high in zip(extent[::2], extent[1::2])) > MOST_POINTS:
             raise ValueError(TOO_MANY_POINTS)
         output.GetPointData().Initialize()  # images keep the scalars of the last update
