@@ -110,7 +110,7 @@ private:
   void GuessExtent(vtkInformation* inputInfo, int extent[6]);
 
   std::set<std::string> Arrays;
-  int LastExtent[6];              // of the whole image
+  int LastExtent[6]; // of the whole image
   bool IsGuessOfData = false;
   std::string LastGrid;           // what it was found for
   vtkMTimeType LastInputTime = 0; // likewise
