@@ -7,6 +7,7 @@
 #include <QLabel>
 #include <QRegularExpression>
 #include <QString>
+#include <QTimer>
 #include <QToolTip>
 
 namespace
@@ -27,7 +28,15 @@ public:
       without.remove(lines);
       if (without != text)
       {
-        QToolTip::showText(QCursor::pos(), without);
+        // Not within the event: a tip that is not visible yet would be replaced by another one.
+        QTimer::singleShot(0, this,
+          [text, without]()
+          {
+            if (QToolTip::isVisible() && QToolTip::text() == text)
+            {
+              QToolTip::showText(QCursor::pos(), without);
+            }
+          });
       }
     }
     return QObject::eventFilter(object, event);
