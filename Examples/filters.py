@@ -26,7 +26,9 @@ line = ScatteredLine(Input=samples, Point1=[-1, 0, 0], Point2=[1, 0, 0])
 gradient = ScatteredGradient(Input=samples, ScalarArray=["POINTS", "temperature"])
 arrows = Glyph(Input=gradient, GlyphType="Arrow", OrientationArray=["POINTS", "Gradient"],
                ScaleArray=["POINTS", "Gradient"], ScaleFactor=0.14, MaximumNumberOfSamplePoints=2500)
-probe = ScatteredProbe(Input=samples, Source=Superquadric(ThetaResolution=100, PhiResolution=100, Toroidal=1, Size=0.7))
+probe = ScatteredProbe(
+    Samples=samples,
+    DestinationMesh=Superquadric(ThetaResolution=100, PhiResolution=100, Toroidal=1, Size=0.7))
 hot = Clip(Input=samples, ClipType="Scalar", Scalars=["POINTS", "temperature"], Value=0.3, Invert=0)
 body = ScatteredBody(Input=hot)
 

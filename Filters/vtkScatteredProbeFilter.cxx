@@ -90,6 +90,11 @@ std::set<std::string> vtkScatteredProbeFilter::ListOwnArrays() const
            : std::set<std::string>{};
 }
 
+const std::set<std::string>* vtkScatteredProbeFilter::GetChosenArrays() const
+{
+  return nullptr;
+}
+
 int vtkScatteredProbeFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -136,8 +141,8 @@ void vtkScatteredProbeFilter::FillOutput(vtkDataObject* output)
     options.outsideNumber = this->NullValue;
   }
   std::vector<std::uint8_t> kinds;
-  const std::vector<vtkIsopointProbing::Array> arrays = this->Probing->ProbeAll(
-    places, options, this->ListOwnArrays(), this->MarkBlankPointsAndCells != 0, kinds);
+  const std::vector<vtkIsopointProbing::Array> arrays = this->Probing->ProbeAll(places, options,
+    this->GetChosenArrays(), this->ListOwnArrays(), this->MarkBlankPointsAndCells != 0, kinds);
 
   std::vector<unsigned char> areNull(places.size());
   std::transform(kinds.begin(), kinds.end(), areNull.begin(),

@@ -164,6 +164,11 @@ protected:
   virtual std::set<std::string> ListOwnArrays() const;
 
   /**
+   * The names of the arrays to interpolate. Null: all.
+   */
+  virtual const std::set<std::string>* GetChosenArrays() const;
+
+  /**
    * All options that ranks must share, as a text.
    */
   virtual std::string DescribeOptions() const;

@@ -24,9 +24,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace
 {
+
+constexpr const char* tooManyPoints =
+  "The image has too many points for any memory. Reduce the sampling dimensions, or increase the"
+  " spacing.";
 
 void pass(vtkDataSetAttributes* from, bool areAll, vtkDataSetAttributes* to)
 {
@@ -158,51 +163,73 @@ void vtkMakeIsopointLine(
   output->GetPointData()->AddArray(lengths);
 }
 
-void vtkMakeIsopointGrid(const double bounds[6], const int dimensions[3], int whole[6],
-  int extent[6], vtkImageData* output)
+vtkIsopointGrid vtkFindIsopointGrid(
+  const double bounds[6], const int dimensions[3], const double spacing[3])
 {
-  double origin[3];
-  double spacing[3];
+  double lengths[3];
   for (int axis = 0; axis < 3; ++axis)
   {
-    const double least = bounds[2 * axis];
-    const double length = bounds[2 * axis + 1] - least;
-    if (dimensions[axis] < 1)
-    {
-      throw isopoint::UsageError("The sampling dimensions are not all positive. Set each to the"
-                                 " number of points along its axis.");
-    }
-    if (!(length >= 0.0) || !std::isfinite(length))
+    lengths[axis] = bounds[2 * axis + 1] - bounds[2 * axis];
+    if (!(lengths[axis] >= 0.0) || !std::isfinite(lengths[axis]))
     {
       throw isopoint::UsageError("The sampling bounds are not three ascending pairs of numbers. Set"
                                  " the least and the greatest x, y and z.");
     }
-    if (length == 0.0)
+    if (dimensions[axis] < 0)
     {
-      whole[2 * axis + 1] = 0;
-      extent[2 * axis + 1] = std::min(extent[2 * axis + 1], 0);
+      throw isopoint::UsageError("A sampling dimension is negative. Set the number of points along"
+                                 " the axis, or 0 for as many as the spacing needs.");
     }
-    const int steps = whole[2 * axis + 1];
-    spacing[axis] = steps > 0 ? length / steps : 1.0;
-    origin[axis] = steps > 0 ? least : least + 0.5 * length;
+    if (!(spacing[axis] >= 0.0) || !std::isfinite(spacing[axis]))
+    {
+      throw isopoint::UsageError("The spacing is negative or not finite. Set the distance of points"
+                                 " along each axis, or 0 for a 99th of the longest side.");
+    }
   }
-  if (extent[0] > extent[1] || extent[2] > extent[3] || extent[4] > extent[5])
+  const double longest = *std::max_element(lengths, lengths + 3);
+  constexpr int automaticSteps = 99;
+  constexpr double rounding = 1e-12; // of a length that is a multiple of the spacing
+  vtkIsopointGrid grid;
+  for (int axis = 0; axis < 3; ++axis)
   {
-    // The extent of no points, for any axis.
-    constexpr int none[] = { 0, -1, 0, -1, 0, -1 };
-    std::copy_n(none, 6, extent);
+    const double least = bounds[2 * axis];
+    const bool isBySpacing = dimensions[axis] == 0;
+    double step = spacing[axis] > 0.0 ? spacing[axis] : longest / automaticSteps;
+    double steps = isBySpacing ? std::ceil(lengths[axis] / step * (1.0 - rounding))
+                               : static_cast<double>(dimensions[axis] - 1);
+    if (lengths[axis] == 0.0)
+    {
+      steps = 0.0;
+    }
+    if (!(steps < std::numeric_limits<int>::max()))
+    {
+      throw isopoint::UsageError(tooManyPoints);
+    }
+    if (!isBySpacing || step == 0.0)
+    {
+      step = steps > 0.0 ? lengths[axis] / steps : 1.0;
+    }
+    grid.Spacing[axis] = step;
+    grid.Origin[axis] = steps > 0.0 ? least : least + 0.5 * lengths[axis];
+    grid.Extent[2 * axis] = 0;
+    grid.Extent[2 * axis + 1] = static_cast<int>(steps);
   }
+  return grid;
+}
+
+void vtkMakeIsopointGrid(const vtkIsopointGrid& grid, const int extent[6], vtkImageData* output)
+{
   constexpr double mostPoints = 1e11; // whose positions take terabytes
   const double points =
     (1.0 + extent[1] - extent[0]) * (1.0 + extent[3] - extent[2]) * (1.0 + extent[5] - extent[4]);
   if (points > mostPoints)
   {
-    throw isopoint::UsageError(
-      "The image has too many points for any memory. Reduce the sampling dimensions.");
+    throw isopoint::UsageError(tooManyPoints);
   }
-  output->SetOrigin(origin);
-  output->SetSpacing(spacing);
-  output->SetExtent(extent);
+  output->GetPointData()->Initialize(); // images keep the scalars of the last update
+  output->SetOrigin(grid.Origin);
+  output->SetSpacing(grid.Spacing);
+  output->SetExtent(const_cast<int*>(extent));
 }
 
 void vtkAddIsopointTuples(

@@ -44,15 +44,26 @@ constexpr const char* vtkIsopointLineLength = "arc_length";
 void vtkMakeIsopointLine(
   const double begin[3], const double end[3], vtkIdType count, vtkPolyData* output);
 
-/// Makes an image without arrays.
+/// The points of an image.
+struct vtkIsopointGrid
+{
+  double Origin[3];
+  double Spacing[3];
+  int Extent[6]; // from 0
+};
+
+/// Finds an image that fills bounds.
 /// @param bounds least and greatest x, y and z
-/// @param dimensions numbers of points of the whole image
-/// @param whole extent of the whole image; axes without length are reduced to one layer
-/// @param extent to make; likewise
-/// @throws isopoint::UsageError unless bounds ascend, dimensions are positive, and memory could
-/// hold the points
-void vtkMakeIsopointGrid(const double bounds[6], const int dimensions[3], int whole[6],
-  int extent[6], vtkImageData* output);
+/// @param dimensions numbers of points along the axes; 0: as many as the spacing needs, so that the
+/// image may end beyond the bounds. Axes without length get one.
+/// @param spacing distances of points; 0: the longest side divided by 99
+/// @throws isopoint::UsageError unless bounds ascend and numbers are not negative
+vtkIsopointGrid vtkFindIsopointGrid(
+  const double bounds[6], const int dimensions[3], const double spacing[3]);
+
+/// Makes a part of an image, without arrays.
+/// @throws isopoint::UsageError if no memory could hold the points
+void vtkMakeIsopointGrid(const vtkIsopointGrid& grid, const int extent[6], vtkImageData* output);
 
 /// Adds `count` tuples of an array, or the array itself if it has no more.
 /// @param attribute a vtkDataSetAttributes::AttributeTypes that the array becomes, or -1

@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <mutex>
 
 vtkIsopointProbing::vtkIsopointProbing(vtkIsopointUpdate& update)
@@ -137,7 +138,8 @@ void vtkIsopointProbing::Probe(const std::vector<isopoint::Vector>& places,
 
 std::vector<vtkIsopointProbing::Array> vtkIsopointProbing::ProbeAll(
   const std::vector<isopoint::Vector>& places, const isopoint::ProbeOptions& options,
-  const std::set<std::string>& own, bool isOutsideHidden, std::vector<std::uint8_t>& kinds)
+  const std::set<std::string>* chosen, const std::set<std::string>& own, bool isOutsideHidden,
+  std::vector<std::uint8_t>& kinds)
 {
   this->Report.IsOutsideLost =
     isOutsideHidden || options.outside == isopoint::OutsideStrategy::Number;
@@ -145,6 +147,22 @@ std::vector<vtkIsopointProbing::Array> vtkIsopointProbing::ProbeAll(
   std::vector<vtkIsopointSampleArray> arrays =
     vtkListIsopointArrays(processes, this->GetBlocks(), this->Report.NotCommon);
   this->Report.HasArrays = !arrays.empty();
+  if (chosen)
+  {
+    const auto isLeftOut = [&](const std::string& name) { return chosen->count(name) == 0; };
+    arrays.erase(std::remove_if(arrays.begin(), arrays.end(),
+                   [&](const vtkIsopointSampleArray& array) { return isLeftOut(array.Name); }),
+      arrays.end());
+    if (arrays.empty())
+    {
+      throw isopoint::UsageError("The samples have none of the chosen arrays. Choose others.");
+    }
+    std::set<std::string>& others = this->Report.NotCommon;
+    for (auto name = others.begin(); name != others.end();)
+    {
+      name = isLeftOut(*name) ? others.erase(name) : std::next(name);
+    }
+  }
   const auto isOwn = [&](const vtkIsopointSampleArray& array)
   { return own.count(array.Name) > 0 && this->Report.Replaced.insert(array.Name).second; };
   arrays.erase(std::remove_if(arrays.begin(), arrays.end(), isOwn), arrays.end());

@@ -55,19 +55,21 @@ public:
   /// @throws isopoint::UsageError if there are none
   void FindBounds(double bounds[6]) const;
 
-  /// Interpolates all arrays of the samples. Counts places, arrays left out, and places outside.
+  /// Interpolates arrays of the samples. Counts places, arrays left out, and places outside.
+  /// @param chosen the names of the arrays; null: all
   /// @param own names of arrays that the filter makes itself; those of samples are left out
   /// @param isOutsideHidden whether places outside will be hidden
   /// @param kinds receives isopoint::PlaceKinds of each place
   /// @returns arrays with a tuple for each place; active attributes are listed beside them
+  /// @throws isopoint::UsageError if none is among the chosen ones
   struct Array
   {
     vtkSmartPointer<vtkDataArray> Values;
     int Attribute; // a vtkDataSetAttributes::AttributeTypes, or -1
   };
   std::vector<Array> ProbeAll(const std::vector<isopoint::Vector>& places,
-    const isopoint::ProbeOptions& options, const std::set<std::string>& own, bool isOutsideHidden,
-    std::vector<std::uint8_t>& kinds);
+    const isopoint::ProbeOptions& options, const std::set<std::string>* chosen,
+    const std::set<std::string>& own, bool isOutsideHidden, std::vector<std::uint8_t>& kinds);
 
   /// The chosen array of the samples, perhaps without a name.
   /// @throws isopoint::UsageError if blocks have different numbers of components

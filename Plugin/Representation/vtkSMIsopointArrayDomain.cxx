@@ -6,6 +6,7 @@
 #include "vtkPVArrayInformation.h"
 #include "vtkPVDataInformation.h"
 #include "vtkPVDataSetAttributesInformation.h"
+#include "vtkSMIsopointRepresentationDomain.h"
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
@@ -46,11 +47,18 @@ bool canBeNumbers(vtkPVArrayInformation* array, const double range[2])
   return (range[0] == 0.0 || range[0] == 1.0) && range[1] - range[0] == count - 1.0;
 }
 
+/// Whether an array describes the shape of isopoints.
+bool isOfSplats(vtkPVDataInformation* data, const std::string& name)
+{
+  return (name == "Normals" || name == "Radius") &&
+         vtkSMIsopointRepresentationDomain::AreIsopoints(data);
+}
+
 /// Whether an array is worth contouring.
 bool isField(vtkPVDataInformation* data, const char* name, int association)
 {
   vtkPVArrayInformation* const array = data->GetArrayInformation(name, association);
-  if (!array || isMarkedAsIds(data, name, association))
+  if (!array || isMarkedAsIds(data, name, association) || isOfSplats(data, name))
   {
     return false;
   }

@@ -5,8 +5,8 @@
  *
  * The arrays of vtkSMArrayListDomain, without ghost marks and arrays without finite values (such as
  * strings). The default is that of vtkSMArrayListDomain or, if that array is constant (as block
- * numbers often are), or holds ids or numbers of points or cells, the first array that does
- * neither.
+ * numbers often are), or holds ids or numbers of points or cells, or the normals or radii of
+ * isopoints, the first array that does none of these.
  */
 #ifndef vtkSMIsopointArrayDomain_h
 #define vtkSMIsopointArrayDomain_h

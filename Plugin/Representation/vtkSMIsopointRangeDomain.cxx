@@ -2,6 +2,8 @@
 #include "vtkSMIsopointRangeDomain.h"
 
 #include "vtkObjectFactory.h"
+#include "vtkPVArrayInformation.h"
+#include "vtkPVDataInformation.h"
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
@@ -36,7 +38,11 @@ int vtkSMIsopointRangeDomain::SetDefaultValues(vtkSMProperty* property, bool use
 
 void vtkSMIsopointRangeDomain::Update(vtkSMProperty* requestingProperty)
 {
-  this->Superclass::Update(requestingProperty);
+  // The superclass takes infinite values too, but knows arrays of other names that ParaView converts.
+  if (!this->SetFiniteRange())
+  {
+    this->Superclass::Update(requestingProperty);
+  }
   vtkSMProperty* const selection = this->GetRequiredProperty("ArraySelection");
   vtkSMProperty* const property = this->GetProperty();
   if (!selection || !property || !property->GetParent())
@@ -58,6 +64,29 @@ void vtkSMIsopointRangeDomain::Update(vtkSMProperty* requestingProperty)
       property->GetParent()->UpdateVTKObjects(); // nobody applies what the user did not change
     }
   }
+}
+
+bool vtkSMIsopointRangeDomain::SetFiniteRange()
+{
+  vtkPVDataInformation* const data = this->GetInputDataInformation("Input");
+  vtkSMProperty* const selection = this->GetRequiredProperty("ArraySelection");
+  if (!data || !selection)
+  {
+    return false;
+  }
+  vtkSMUncheckedPropertyHelper shown(selection);
+  const char* const name = shown.GetNumberOfElements() >= 5 ? shown.GetAsString(4) : nullptr;
+  vtkPVArrayInformation* const array =
+    name ? data->GetArrayInformation(name, shown.GetAsInt(3)) : nullptr;
+  if (!array)
+  {
+    return false;
+  }
+  double range[2];
+  array->GetComponentFiniteRange(0, range);
+  const bool isAny = range[0] <= range[1];
+  this->SetEntries({ vtkEntry(range[0], isAny, range[1], isAny) });
+  return true;
 }
 
 bool vtkSMIsopointRangeDomain::IsDefault(vtkSMProperty* property) const

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /**
  * @class   vtkSMIsopointRangeDomain
- * @brief   a range whose default follows the array
+ * @brief   a finite range whose default follows the array
  *
- * The default isovalue is the middle of the array's range, as with vtkSMArrayRangeDomain. If
+ * The range is that of the array's finite values. The default isovalue is the middle of the array's range, as with vtkSMArrayRangeDomain. If
  * another array is chosen while the isovalue is the default, or an array comes where there was
  * none, it becomes the middle of the new range. Other isovalues, those of a loaded state, and all
  * if only the data change, are kept.
@@ -38,6 +38,7 @@ protected:
   ~vtkSMIsopointRangeDomain() override = default;
 
 private:
+  bool SetFiniteRange(); // whether the input has the array
   bool IsDefault(vtkSMProperty* property) const;
 
   std::string Array;                  // of the range, with its association

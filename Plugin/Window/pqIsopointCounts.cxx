@@ -54,7 +54,7 @@ pqIsopointCounts::pqIsopointCounts(vtkSMProxy* proxy, vtkSMPropertyGroup* group,
       each->setToolTip(QString(part->GetDocumentation()->GetDescription()).simplified());
     }
     layout->addRow(label, value);
-    this->Counts.push_back({ value, part, whole });
+    this->Counts.push_back({ label, value, part, whole });
     for (vtkSMProperty* const property : { part, whole })
     {
       if (property)
@@ -73,12 +73,17 @@ void pqIsopointCounts::updateTexts()
   const auto number = [](vtkSMProperty* property)
   { return vtkSMPropertyHelper(property).GetAsIdType(); };
   const bool isUpdated = std::any_of(this->Counts.begin(), this->Counts.end(),
-    [&](const Count& count) { return count.Whole && number(count.Whole) > 0; });
+    [&](const Count& count) { return number(count.Whole ? count.Whole : count.Part) > 0; });
   for (const Count& count : this->Counts)
   {
     const QString part = QString::number(number(count.Part));
     count.Text->setText(!isUpdated    ? QString()
                         : count.Whole ? part + " of " + QString::number(number(count.Whole))
                                       : part);
+    if (count.Text->objectName() == "NumberOfSkippedSamples")
+    {
+      count.Label->setVisible(number(count.Part) > 0);
+      count.Text->setVisible(number(count.Part) > 0);
+    }
   }
 }

@@ -10,7 +10,8 @@ class QLabel;
 class vtkSMProperty;
 class vtkSMPropertyGroup;
 
-/// Counts of the last update as text, "27 of 12717"; empty before the first update. The function of
+/// Counts of the last update as text, "27 of 12717"; empty before the first update. Skipped samples
+/// are only shown if there are any. The function of
 /// a property is its label, and the property with the function "label of" is its total.
 class pqIsopointCounts : public pqPropertyWidget
 {
@@ -26,6 +27,7 @@ private Q_SLOTS:
 private:
   struct Count
   {
+    QLabel* Label;
     QLabel* Text;
     vtkSMProperty* Part;
     vtkSMProperty* Whole; // null: of nothing

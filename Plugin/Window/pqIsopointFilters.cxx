@@ -17,6 +17,7 @@
 #include "vtkPVDataInformation.h"
 #include "vtkSMIsopointRepresentationDomain.h"
 #include "vtkSMParaViewPipelineControllerWithRendering.h"
+#include "vtkSMProperty.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
 #include "vtkSMSessionProxyManager.h"
@@ -87,6 +88,7 @@ void pqIsopointFilters::follow(pqServerManagerModelItem* item)
   if (isNew)
   {
     hideSplatsBehind(filter);
+    keepColor(filter);
     explainEmptyResult(filter);
   }
 }
@@ -147,6 +149,40 @@ void pqIsopointFilters::hideSplatsBehind(pqPipelineFilter* filter)
       {
         controller->Hide(input->getSourceProxy(), input->getPortNumber(), view->getViewProxy());
       }
+    }
+  }
+}
+
+void pqIsopointFilters::keepColor(pqPipelineFilter* filter)
+{
+  if (std::strcmp(filter->getProxy()->GetXMLName(), "ScatteredGrid") != 0)
+  {
+    return;
+  }
+  pqOutputPort* const input = filter->getAnyInput();
+  const QList<pqView*> views = filter->getViews();
+  for (pqView* const view : views)
+  {
+    pqDataRepresentation* const own = filter->getRepresentation(view);
+    pqDataRepresentation* const former = input ? input->getRepresentation(view) : nullptr;
+    if (!own || !former || !own->getProxy()->GetProperty("ColorArrayName") ||
+      !former->getProxy()->GetProperty("ColorArrayName"))
+    {
+      continue;
+    }
+    vtkSMPropertyHelper color(former->getProxy(), "ColorArrayName");
+    const char* const name = color.GetInputArrayNameToProcess();
+    if (name && name[0] && color.GetInputArrayAssociation() == vtkDataObject::CELL &&
+      filter->getOutputPort(0)->getDataInformation()->GetArrayInformation(
+        name, vtkDataObject::POINT))
+    {
+      vtkSMPropertyHelper(own->getProxy(), "ColorArrayName")
+        .SetInputArrayToProcess(vtkDataObject::POINT, name);
+      own->getProxy()
+        ->GetProperty("LookupTable")
+        ->Copy(former->getProxy()->GetProperty("LookupTable"));
+      own->getProxy()->UpdateVTKObjects();
+      view->render();
     }
   }
 }

@@ -10,7 +10,7 @@
 class pqPipelineFilter;
 class pqServerManagerModelItem;
 
-/// Adapts filters downstream of isopoints when they are applied.
+/// Adapts filters when they are applied: those downstream of isopoints, and images.
 class pqIsopointFilters
 {
 public:
@@ -33,6 +33,9 @@ private:
   /// Hides the input of a new filter if it is drawn as opaque splats, as ParaView does for
   /// surfaces: the output would be hidden behind them.
   static void hideSplatsBehind(pqPipelineFilter* filter);
+
+  /// Colors a new image as its input is, if by an array of cells: the image has it at points.
+  static void keepColor(pqPipelineFilter* filter);
 
   /// Explains what to do if a new filter yields nothing because it needs cells other than vertices.
   static void explainEmptyResult(pqPipelineFilter* filter);

@@ -8,6 +8,7 @@
 #include <QAction>
 #include <QList>
 #include <QObject>
+#include <QString>
 
 #include <utility>
 
@@ -37,11 +38,15 @@ void pqIsopointSearch::updateEntries()
   const std::pair<const char*, const char*> names[] = {
     { "ScatteredIsopoints", "Contour samples as points" },
     { "ScatteredIsosurface", "Contour samples as triangles" },
+    // Texts that begin with the words come first, in the order of their characters.
+    { "ScatteredIsosurface", "Surface (isosurface) of a cloud of samples" },
     { "ScatteredGrid", "Resample samples to an image" },
+    { "ScatteredGrid", "Streamlines of samples, by an image" },
     { "ScatteredProbe", "Resample samples with a data set" },
     { "ScatteredLine", "Plot samples over a line" },
     { "ScatteredSlice", "Cut samples by a plane" },
     { "ScatteredGradient", "Derivatives of samples" },
+    { "ScatteredGradient", "Vorticity of samples" },
     { "ScatteredBody", "Surface of particles" },
   };
   for (const auto& [filter, name] : names)
@@ -50,7 +55,9 @@ void pqIsopointSearch::updateEntries()
     if (auto* const action = pqCoreUtilities::mainWidget()->findChild<QAction*>(filter))
     {
       auto* const entry = new QAction(action->icon(), name, this->Entries.get());
-      entry->setObjectName(action->objectName() + "Entry"); // the search needs distinct names
+      // The search needs distinct names.
+      entry->setObjectName(
+        action->objectName() + "Entry" + QString::number(this->Entries->actions().size()));
       entry->setEnabled(action->isEnabled());
       entry->setData(action->data());
       QObject::connect(entry, &QAction::triggered, action, &QAction::trigger);

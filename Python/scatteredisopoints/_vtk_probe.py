@@ -4,13 +4,16 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray
 from vtkmodules.vtkCommonCore import VTK_CHAR, vtkDataArray, vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkCompositeDataSet, vtkDataObject, vtkImageData, vtkPolyData
-from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkStreamingDemandDrivenPipeline
+from vtkmodules.vtkCommonDataModel import (
+    vtkBoundingBox, vtkCellArray, vtkCompositeDataSet, vtkDataObject, vtkImageData, vtkPolyData)
+from vtkmodules.vtkCommonExecutionModel import (
+    vtkAlgorithm, vtkExtentTranslator, vtkStreamingDemandDrivenPipeline)
 
 from . import _datasets, _library
 from ._arrays import as_numpy, positions_of, readable
@@ -27,6 +30,8 @@ PACKAGE = "vtkmodules"
 MASK_POINTS, NULL_VALUE, CLOSEST_POINT = range(3)
 LINE_LENGTH = "arc_length"
 MOST_POINTS = 1e11  # of images, whose positions take terabytes
+TOO_MANY_POINTS = ("The image has too many points for any memory. Reduce the sampling dimensions, or increase the"
+                   " spacing.")
 
 
 class Probing(ScatteredAlgorithm):
@@ -77,6 +82,10 @@ class vtkScatteredProbeFilter(Probing):
         return ({self._values["ValidPointsMaskArrayName"]} if self._values["NullPointsStrategy"] == MASK_POINTS
                 else set())
 
+    def _chosen_arrays(self) -> set[str]:
+        """The names of the arrays to interpolate. Empty: all."""
+        return set()
+
     def _make_places(self, samples: Samples, output: Any) -> None:
         """Gives the output its points, and the arrays that it has besides interpolated ones."""
         places = self.GetInput()
@@ -109,7 +118,13 @@ class vtkScatteredProbeFilter(Probing):
         self._count_samples(samples)
         self._make_places(samples, output)
         arrays, left_out = shared_arrays(data, self._kept[0][2])
-        has_arrays, own = len(arrays) > 0, self._own_arrays() & arrays.keys()
+        has_arrays, chosen = len(arrays) > 0, self._chosen_arrays()
+        if chosen:
+            arrays = {name: array for name, array in arrays.items() if name in chosen}
+            left_out = [name for name in left_out if name in chosen]
+            if not arrays:
+                raise ValueError("The samples have none of the chosen arrays. Choose others.")
+        own = self._own_arrays() & arrays.keys()
         arrays = {name: array for name, array in arrays.items() if name not in own}
         blocks = [block for block in _datasets.leaves(output) if block.IsA("vtkDataSet")]
         places = [positions_of(as_numpy(_datasets.point_positions(block))) for block in blocks]
@@ -228,47 +243,129 @@ class vtkScatteredGridFilter(vtkScatteredProbeFilter):
     def _output_class(self, data: Any) -> type:
         return vtkImageData
 
+    def __init__(self):
+        super().__init__()
+        self._chosen: set[str] = set()
+        self._is_guess_of_data = False
+        self._last: Any = None  # the key and the extent of the last whole image
+
+    def AddArray(self, name: str) -> None:
+        if name not in self._chosen:
+            self._chosen.add(name)
+            self.Modified()
+
+    def ClearArrays(self) -> None:
+        if self._chosen:
+            self._chosen.clear()
+            self.Modified()
+
+    def _chosen_arrays(self) -> set[str]:
+        return self._chosen
+
     def RequestInformation(self, request, inputs, outputs):
         super().RequestInformation(request, inputs, outputs)
         info = outputs.GetInformationObject(0)
-        extent = [end for count in self._values["SamplingDimensions"] for end in (0, max(count, 1) - 1)]
-        info.Set(vtkStreamingDemandDrivenPipeline.WHOLE_EXTENT(), extent, 6)
+        info.Set(vtkStreamingDemandDrivenPipeline.WHOLE_EXTENT(), self._guess_extent(), 6)
         info.Set(vtkAlgorithm.CAN_PRODUCE_SUB_EXTENT(), 1)
         for key in (vtkDataObject.ORIGIN(), vtkDataObject.SPACING(), vtkDataObject.DIRECTION()):
             info.Remove(key)  # those of samples that are an image
         return 1
 
+    def _guess_extent(self) -> list[int]:
+        """The extent is known when the samples are. Until then it is that of the last update if nothing changed, or
+        follows from bounds of the present data. _make_places() corrects it."""
+        data = self.GetInput()
+        if data is not None and self._last and self._last[0] == self._grid_key():
+            return self._last[1]
+        box = vtkBoundingBox(self._values["SamplingBounds"])
+        if self._values["UseInputBounds"]:
+            box.Reset()
+            for leaf in _datasets.leaves(data) if data is not None else ():
+                if leaf.IsA("vtkDataSet") and leaf.GetNumberOfPoints() > 0:
+                    box.AddBounds(leaf.GetBounds())
+        bounds = [0.0, 1.0, 0.0, 1.0, 0.0, 1.0]
+        self._is_guess_of_data = bool(box.IsValid())
+        if self._is_guess_of_data:
+            box.GetBounds(bounds)
+        try:
+            return _grid_in(bounds, self._values["SamplingDimensions"], self._values["Spacing"])[0]
+        except ValueError:
+            return [0] * 6  # the update reports the error
+
+    def _grid_key(self) -> tuple:
+        """What the whole image depends on."""
+        values = self._values
+        return (self.GetInput().GetMTime(), values["SamplingDimensions"], values["Spacing"], values["UseInputBounds"],
+                not values["UseInputBounds"] and values["SamplingBounds"])
+
     def _make_places(self, samples: Samples, output: Any) -> None:
         pipeline, info = vtkStreamingDemandDrivenPipeline, self.GetOutputInformation(0)
         bounds = _bounds_of(samples) if self._values["UseInputBounds"] else self._values["SamplingBounds"]
-        if min(self._values["SamplingDimensions"]) < 1:
-            raise ValueError("The sampling dimensions are not all positive. Set each to the number of points along its"
-                             " axis.")
-        whole, extent = (list(info.Get(key)) for key in (pipeline.WHOLE_EXTENT(), pipeline.UPDATE_EXTENT()))
-        origin, spacing = [], []
-        for axis, (least, greatest) in enumerate(zip(bounds[::2], bounds[1::2])):
-            length = greatest - least
-            if not 0.0 <= length < math.inf:
-                raise ValueError("The sampling bounds are not three ascending pairs of numbers. Set the least and the"
-                                 " greatest x, y and z.")
-            if length == 0.0:
-                whole[2 * axis + 1] = 0
-                extent[2 * axis + 1] = min(extent[2 * axis + 1], 0)
-            steps = whole[2 * axis + 1]
-            spacing.append(length / steps if steps > 0 else 1.0)
-            origin.append(least + (0.0 if steps > 0 else 0.5 * length))
-        if any(low > high for low, high in zip(extent[::2], extent[1::2])):
-            extent = [0, -1, 0, -1, 0, -1]  # of no points, for any axis
-        if math.prod(float(high - low + 1) for low, high in zip(extent[::2], extent[1::2])) > MOST_POINTS:
-            raise ValueError("The image has too many points for any memory. Reduce the sampling dimensions.")
-        # Filters downstream and the next update do not take missing layers for missing data. Pieces remain those of the
-        # same extent, which the executive keeps for them.
-        if info.Get(pipeline.UPDATE_NUMBER_OF_PIECES()) <= 1:
+        whole, origin, spacing = _grid_in(bounds, self._values["SamplingDimensions"], self._values["Spacing"])
+        announced, extent = (list(info.Get(key)) for key in (pipeline.WHOLE_EXTENT(), pipeline.UPDATE_EXTENT()))
+        for axis in range(3) if self._is_guess_of_data else ():
+            # Filters downstream do not hear of another extent, as of samples that move.
+            steps = announced[2 * axis + 1]
+            is_automatic = self._values["SamplingDimensions"][axis] == 0 and self._values["Spacing"][axis] == 0.0
+            if is_automatic and steps > 0 and whole[2 * axis + 1] > 0:
+                whole[2 * axis + 1] = steps
+                spacing[axis] = (bounds[2 * axis + 1] - bounds[2 * axis]) / steps
+        self._last = self._grid_key(), whole
+        if announced != whole:
+            pieces = info.Get(pipeline.UPDATE_NUMBER_OF_PIECES())
+            if pieces > 1:
+                translator = vtkExtentTranslator()
+                translator.PieceToExtentThreadSafe(
+                    info.Get(pipeline.UPDATE_PIECE_NUMBER()), pieces,
+                    info.Get(pipeline.UPDATE_NUMBER_OF_GHOST_LEVELS()), whole, extent, translator.BLOCK_MODE, 0)
+            else:
+                extent = _cut(whole, announced, extent)
             info.Set(pipeline.WHOLE_EXTENT(), whole, 6)
             info.Set(pipeline.UPDATE_EXTENT(), extent, 6)
+        if math.prod(float(high - low + 1) for low, high in zip(extent[::2], extent[1::2])) > MOST_POINTS:
+            raise ValueError(TOO_MANY_POINTS)
+        output.GetPointData().Initialize()  # images keep the scalars of the last update
         output.SetOrigin(origin)
         output.SetSpacing(spacing)
         output.SetExtent(extent)
+
+
+def _grid_in(bounds: Sequence[float], dimensions: Sequence[int], spacing: Sequence[float]
+             ) -> tuple[list[int], list[float], list[float]]:
+    """The extent, origin and spacing of an image that fills bounds, as the compiled filter finds them."""
+    lengths = [high - low for low, high in zip(bounds[::2], bounds[1::2])]
+    if not all(0.0 <= length < math.inf for length in lengths):
+        raise ValueError("The sampling bounds are not three ascending pairs of numbers. Set the least and the greatest"
+                         " x, y and z.")
+    if min(dimensions) < 0:
+        raise ValueError("A sampling dimension is negative. Set the number of points along the axis, or 0 for as many"
+                         " as the spacing needs.")
+    if not all(0.0 <= step < math.inf for step in spacing):
+        raise ValueError("The spacing is negative or not finite. Set the distance of points along each axis, or 0 for a"
+                         " 99th of the longest side.")
+    extent, origins, steps = [], [], []
+    for least, length, dimension, step in zip(bounds[::2], lengths, dimensions, spacing):
+        step = step or max(lengths) / 99
+        count = 0.0 if length == 0.0 else dimension - 1 if dimension > 0 else length / step * (1.0 - 1e-12)
+        if not count < 2**31 - 1:
+            raise ValueError(TOO_MANY_POINTS)
+        count = math.ceil(count)
+        if dimension > 0 or step == 0.0:
+            step = length / count if count > 0 else 1.0
+        extent += [0, count]
+        origins.append(least if count > 0 else least + 0.5 * length)
+        steps.append(step)
+    return extent, origins, steps
+
+
+def _cut(whole: list[int], announced: list[int], extent: list[int]) -> list[int]:
+    """Cuts an extent that was asked for to that of the whole image. Where it ends as the announced image, it ends as
+    the whole one."""
+    ends = [high if last == asked else min(last, high)
+            for last, asked, high in zip(extent[1::2], announced[1::2], whole[1::2])]
+    if any(low > high for low, high in zip(extent[::2], ends)):
+        return [0, -1, 0, -1, 0, -1]  # of no points, for any axis
+    return [end for pair in zip(extent[::2], ends) for end in pair]
 
 
 def _bounds_of(samples: Samples) -> list[float]:

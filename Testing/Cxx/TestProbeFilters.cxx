@@ -441,8 +441,8 @@ TEST(ProbeFilters, GridMayHaveBoundsOfItsOwn)
   filter->SetSamplingBounds(0.0, 1.0, 1.0, 0.0, 0.0, 1.0);
   expectError(filter, "ascending");
   filter->SetSamplingBounds(0.0, 1.0, 0.0, 1.0, 3.0, 3.0);
-  filter->SetSamplingDimensions(3, 0, 1);
-  expectError(filter, "not all positive");
+  filter->SetSamplingDimensions(3, -1, 1);
+  expectError(filter, "dimension is negative");
   filter->SetSamplingDimensions(3, 2, 1);
   EXPECT_EQ(updated(filter)->GetNumberOfPoints(), 6);
 }

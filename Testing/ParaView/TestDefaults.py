@@ -7,7 +7,8 @@ import numpy as np
 from paraview import simple
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet
 
-from scripting import check, load, messages, named, number_of_points, offered_arrays, path_of, produced, run, updated
+from scripting import (
+    check, contoured, load, messages, named, number_of_points, offered_arrays, path_of, produced, run, updated, vtk_data)
 
 load(sys.argv[1])
 FILTERS = simple.ScatteredIsopoints, simple.ScatteredIsosurface
@@ -105,6 +106,59 @@ def triangles_are_saved_as_stl():
         check(word in texts[0] and bool(texts[0]) == bool(word), f"said of {isopoints}: {texts}")
 
 
+def arrays_that_describe_isopoints_are_not_the_default():
+    """Those are normals and radii."""
+    points = contoured(produced(lattice("POINTS", value=distance)), "value", 3.5)
+    check(simple.ScatteredIsosurface(Input=points).ContourBy[1] == "value", "the array to contour")
+    check(simple.ScatteredGradient(Input=points).ScalarArray[1] == "value", "the array of a gradient")
+    named = simple.Calculator(Input=points, Function="coordsX", ResultArrayName="x")
+    named.UpdatePipeline()
+    check(simple.ScatteredIsosurface(Input=named).ContourBy[1] == "x", "an array of their own")
+
+
+def ranges_are_finite():
+    """Of the isovalue and its default, also after its button for the default was pressed."""
+    data = lattice("POINTS", value=lambda p: np.where(p[:, 0] == 0, np.inf, np.where(p[:, 0] == 1, np.nan, distance(p))))
+    for create in FILTERS:
+        isopoints = create(Input=produced(data))
+        values = isopoints.SMProxy.GetProperty("ContourValues")
+        for each in (values.ResetToDomainDefaults, lambda: None):
+            domain = values.FindDomain("vtkSMArrayRangeDomain")
+            least, greatest = domain.GetMinimum(0), domain.GetMaximum(0)
+            check(0 < least < 1 and 8 < greatest < 10, f"the finite range: {least}, {greatest}")
+            check(list(isopoints.Isosurfaces) == [0.5 * (least + greatest)], f"its middle: {isopoints.Isosurfaces}")
+            each()
+
+
+def grids_of_chosen_arrays_without_errors():
+    """Images of samples in a plane, of one, and of others, whose extent the samples determine: the extent that is
+    announced downstream is that of the data."""
+    places = np.random.default_rng(3).random((500, 3))
+    for scale, expected in (((2, 1, 0), (99, 50, 0)), ((0, 0, 0), (0, 0, 0))):
+        samples = vtk_data.cloud_of(np.vstack([np.zeros(3), places, np.ones(3)]) * scale, np.arange(502.0), "first")
+        samples.GetPointData().AddArray(named("second", np.arange(502.0)))
+        view = simple.CreateView("RenderView")
+        with messages() as texts:
+            grid = simple.ScatteredGrid(Input=produced(samples))
+            check(list(grid.Arrays) == ["first", "second"], f"all arrays: {grid.Arrays}")
+            for option in (dict(), dict(Arrays=["second"]), dict(SamplingDimensions=[7, 6, 5])):
+                for name, value in option.items():
+                    setattr(grid, name, value)
+                simple.Show(grid, view).Representation = "Outline"  # a slice would need the former array
+                simple.Render(view)
+                found, dimensions = grid.GetDataInformation().GetExtent()[1::2], grid.SamplingDimensions
+                check(found == (expected if not any(dimensions) else
+                                tuple(d - 1 if s else 0 for d, s in zip(dimensions, scale))), f"extent {found}")
+        check("ERR" not in texts[0] and "outside" not in texts[0], texts[0])
+        check(set(grid.PointData.keys()) - {"vtkGhostType"} == {"second"}, f"arrays {grid.PointData.keys()}")
+
+
+def spreadsheets_hide_splats():
+    """Unless the user shows their columns."""
+    hidden = list(simple.CreateView("SpreadSheetView").HiddenColumnLabels)
+    check(hidden == ["Block Number", "SplatAxis", "SplatPolygon"], f"hidden: {hidden}")
+
+
 def input_matters_rather_than_the_active_source():
     named, other, both = (produced(lattice("POINTS", **dict.fromkeys(names, distance)))
                           for names in (["named"], ["other"], ["first", "named"]))
@@ -190,9 +244,10 @@ def panel():
             if not has_both and create is FILTERS[0]:
                 check(shown is None, f"points have no {name}")
             else:
-                check(shown.GetPanelVisibility() == "default" and shown.GetElement(0) == 1, f"{name} is on")
+                check(shown.GetElement(0) == 1, f"{name} is on")
 
 
 run(the_array_of_an_input, arrays_without_isosurfaces_are_not_offered, triangles_are_saved_as_stl,
-    input_matters_rather_than_the_active_source, isovalue_follows_the_array, arrays_may_come_later,
+    arrays_that_describe_isopoints_are_not_the_default, ranges_are_finite, grids_of_chosen_arrays_without_errors,
+    spreadsheets_hide_splats, input_matters_rather_than_the_active_source, isovalue_follows_the_array, arrays_may_come_later,
     properties_may_outlive_proxies, panel)

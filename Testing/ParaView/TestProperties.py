@@ -107,15 +107,41 @@ def check_filter(root, documented):
                   f"{name}: the default {default}, in the document {text}")
         names.append(name)
     check(len(names) >= (10 if contours else 3), f"properties of the filter: {names}")
+    check_panel(proxy)
     if contours:
         shown = [element.get("name") for element in proxy
                  if element.tag.endswith("VectorProperty") and not is_hidden(element)]
         groups = proxy.findall("PropertyGroup")
         grouped = [element.get("name") for group in groups for element in group]
         labels = [group.get("label") for group in groups]
-        check(labels == ["Isosurfaces", "Sampling", "Output Arrays", "Performance", "Last Update"], f"groups {labels}")
+        check(labels == ["Isosurfaces", "Surface", "Output Arrays", "Performance", "Last Update"], f"groups {labels}")
         check(shown[:2] == ["SelectInputScalars", "ContourValues"], f"first: {shown[:2]}")
         check(grouped == shown, f"groups have all properties in their order: {grouped}")
+
+
+def check_panel(proxy):
+    """Counts are advanced, rows of one filter are those of others, and the first property for animations is that of
+    isovalues."""
+    name, visibility = proxy.get("name"), {element.get("name"): element.get("panel_visibility", "default")
+                                           for element in proxy if element.tag.endswith("Property")}
+    advanced = {each for each in visibility if visibility[each] == "advanced"}
+    check(all(each in advanced for each in visibility if each.startswith("NumberOf")), f"{name}: counts")
+    check("Regularize" not in visibility or "Regularize" in advanced, f"{name}: Regularize is advanced")
+    if "NullPointsStrategy" in visibility:
+        check(("NullPointsStrategy" in advanced) == (name == "ScatteredProbe"), f"{name}: the strategy")
+    options = [entry.get("text") for entry in proxy.iterfind("*[@name='Interpolation']//Entry")]
+    check(not options or options[0] == "Blend", f"{name}: {options}")
+    animated = sorted(element.get("name") for element in proxy if element.tag.endswith("VectorProperty")
+                      and element.get("animateable") != "0" and element.get("information_only") != "1")
+    if "ContourValues" in animated:
+        check(animated[0] == "ContourValues", f"{name}: animated first: {animated}")
+    labels = {element.get("name"): element.get("label") for element in proxy if element.tag == "InputProperty"}
+    check(labels == (dict(Input="Samples", Source="Destination Mesh") if name == "ScatteredProbe" else
+                     dict(Input=None)), f"{name}: ports {labels}")
+    grouped = [element.get("name") for group in proxy.findall("PropertyGroup") for element in group]
+    if name in ("ScatteredProbe", "ScatteredSlice"):
+        rows = {each for each in advanced if each not in ("UseGlobalController", "UsePanelNames")}
+        check(rows <= set(grouped), f"{name}: without a heading: {rows - set(grouped)}")
 
 
 def value_of(representation, name, like):

@@ -17,7 +17,7 @@ wavelet.UpdatePipeline()
 points = ScatteredIsopoints(registrationName="points", Input=wavelet, Isosurfaces=[180.0], DropGaps=0)
 surface = ScatteredIsosurface(registrationName="surface", Input=wavelet,
                               ContourBy=["POINTS", "RTData"], Projection="Quadratic fit", Regularize=0)
-ScatteredProbe(registrationName="probe", Input=wavelet, Source=Sphere(Radius=9), Interpolation="Cubic fit")
+ScatteredProbe(registrationName="probe", Samples=wavelet, DestinationMesh=Sphere(Radius=9), Interpolation="Cubic fit")
 ScatteredLine(registrationName="line", Input=wavelet, Resolution=30)
 ScatteredGrid(registrationName="grid", Input=wavelet, SamplingDimensions=[7, 8, 9])
 ScatteredGradient(registrationName="gradient", Input=wavelet)
@@ -49,8 +49,9 @@ for name in ("points", "surface", "probe", "line", "grid", "gradient", "slice", 
     print("found:", name, data.GetNumberOfPoints(), data.GetBounds(), *(
         hashlib.sha256(vtk_to_numpy(array)).hexdigest()[:16] for array in (points, *(arrays if name != "points" else ()))
         if array))
-    names = [n for n in source.ListProperties() if n not in ("Input", "UseGlobalController", "AreSplatsApart")]
-    print("found:", *(f"{n}={source.GetPropertyValue(n)}" for n in sorted(names) if n not in ("SliceType", "Source")
+    names = [n for n in source.ListProperties() if n not in (
+        "Input", "Samples", "DestinationMesh", "UseGlobalController", "AreSplatsApart")]
+    print("found:", *(f"{n}={source.GetPropertyValue(n)}" for n in sorted(names) if n != "SliceType"
                       and (not n.startswith("NumberOf") or n == "NumberOfNeighbors")))
     proxy = source.SMProxy
     print("found:", proxy.GetXMLName(), proxy.GetXMLLabel(), proxy.GetDocumentation().GetDescription()[:60].strip())

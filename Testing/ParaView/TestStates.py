@@ -40,7 +40,7 @@ def build():
     simple.Show(simple.ScatteredIsosurface(Input=wavelet), view)
     simple.Show(simple.ScatteredGrid(Input=wavelet, SamplingDimensions=[8, 9, 10]), view)
     simple.Show(simple.ScatteredGradient(Input=wavelet), view)
-    simple.Show(simple.ScatteredProbe(Input=wavelet, Source=simple.Sphere()), view)
+    simple.Show(simple.ScatteredProbe(Samples=wavelet, DestinationMesh=simple.Sphere()), view)
     simple.ScatteredLine(Input=wavelet, Resolution=30)
     simple.Render(view)
 

@@ -22,6 +22,7 @@ from vtkmodules.vtkCommonDataModel import (
     vtkBox, vtkImplicitBoolean, vtkMultiBlockDataSet, vtkPlane, vtkPolyData, vtkSphere, vtkTable)
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline, vtkTrivialProducer
 from vtkmodules.vtkCommonTransforms import vtkTransform
+from vtkmodules.vtkFiltersCore import vtkAssignAttribute
 
 NAMES = ("Probe", "Line", "Grid", "Gradient", "Slice")
 
@@ -276,23 +277,77 @@ class PlaceFilters(FilterTests):
         self.assertEqual((filter_.GetOutput().GetDimensions(), filter_.GetOutput().GetBounds()[4]), ((6, 5, 1), 3))
         set_all(filter_, UseInputBounds=False, SamplingBounds=(0, 1, 1, 0, 0, 1))
         self.assert_error(filter_, "ascending")
-        set_all(filter_, SamplingBounds=(0, 1, 0, 1, 3, 3), SamplingDimensions=(3, 0, 1))
-        self.assert_error(filter_, "not all positive")
+        set_all(filter_, SamplingBounds=(0, 1, 0, 1, 3, 3), SamplingDimensions=(3, -1, 1))
+        self.assert_error(filter_, "dimension is negative")
+        set_all(filter_, SamplingDimensions=(3, 2, 1), Spacing=(0, 0, -1))
+        self.assert_error(filter_, "spacing is negative")
+        filter_.SetSpacing(0, 0, 0)
         filter_.SetSamplingDimensions(3, 2, 1)
         self.assertEqual(self.output(filter_).GetNumberOfPoints(), 6)
         self.assert_error(self.new("Grid", with_ghosts(cloud(10), POINTS, [HIDDEN_POINT])), "All samples are hidden")
         self.assert_error(self.new("Grid", cloud(10), SamplingDimensions=3 * (100000,)), "Reduce the sampling dim")
 
+    def test_voxels_are_cubes_unless_numbers_of_points_are_given(self):
+        """The spacing is that of the longest side in 99 parts, or given; the image may end beyond the bounds."""
+        samples = cloud_of(np.vstack([np.zeros(3), np.random.default_rng(2).random((50, 3)), np.ones(3)])
+                           * (1, 0.5, 0.26), np.arange(52.0))
+        for options, extent, spacing in (
+                (dict(), (99, 50, 26), 3 * (1 / 99,)), (dict(Spacing=3 * (0.1,)), (10, 5, 3), 3 * (0.1,)),
+                (dict(Spacing=(0.25, 0.1, 0.26), SamplingDimensions=(0, 3, 0)), (4, 2, 1), (0.25, 0.25, 0.26))):
+            filter_ = self.new("Grid", samples, **dict(dict(SamplingDimensions=(0, 0, 0)), **options))
+            filter_.UpdateInformation()
+            announced = filter_.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.WHOLE_EXTENT())
+            self.assertEqual(announced[1::2], extent)
+            if options:
+                image = self.output(filter_)
+                self.assertEqual(image.GetExtent()[1::2], extent)
+                np.testing.assert_allclose(image.GetSpacing(), spacing, rtol=1e-15)
+                np.testing.assert_allclose(image.GetOrigin(), 3 * [0], atol=1e-15)
+
+    def test_images_have_the_extent_that_they_announce(self):
+        """Filters downstream then do not ask for one that is outside, nor for an update without a change."""
+        flat = cloud_of(np.random.default_rng(2).random((50, 3)) * (2, 1, 0), np.arange(50.0))
+        hidden = with_ghosts(cloud(50), POINTS, [HIDDEN_POINT, HIDDEN_POINT] + 48 * [0])
+        for data, options in ((flat, dict(SamplingDimensions=(5, 4, 3))), (flat, dict(Spacing=3 * (0.5,))),
+                              (flat, {}), (hidden, {})):
+            producer = vtkTrivialProducer()
+            producer.SetOutput(data)
+            filter_ = self.new("Grid", data, **dict(dict(SamplingDimensions=(0, 0, 0), Interpolation=4), **options))
+            filter_.SetInputConnection(producer.GetOutputPort())
+            errors = observed(filter_.GetExecutive())["ErrorEvent"]
+            after = vtkAssignAttribute()
+            after.Assign("SCALARS", "SCALARS", "POINT_DATA")  # does nothing
+            after.SetInputConnection(filter_.GetOutputPort())
+            after.Update()
+            updated_at = filter_.GetOutput().GetUpdateTime()
+            after.UpdateWholeExtent()
+            self.assertEqual(after.GetOutput().GetExtent(), filter_.GetOutput().GetExtent())
+            self.assertEqual(filter_.GetOutput().GetUpdateTime(), updated_at)
+            self.assertEqual(errors, [])
+
+    def test_grids_have_the_chosen_arrays(self):
+        samples = cloud_of(np.random.default_rng(2).random((50, 3)), np.arange(50.0), "values")
+        samples.GetPointData().AddArray(named("other", np.arange(50.0)))
+        filter_ = self.new("Grid", samples, MarkBlankPointsAndCells=0)
+        for names in (["values"], ["other"], ["values", "other"], []):  # the former scalars do not stay
+            filter_.ClearArrays()
+            for name in names:
+                filter_.AddArray(name)
+            self.assertEqual(sorted(names_in(self.output(filter_).GetPointData())),
+                             sorted(names or ["values", "other"]))
+        filter_.AddArray("nothing")
+        self.assert_error(filter_, "none of the chosen arrays")
+
     def test_pieces_of_flat_grids(self):
         samples = cloud(1000)
         vtk_to_numpy(samples.GetPoints().GetData())[:, 2] = 3
-        filter_ = self.new("Grid", samples, SamplingDimensions=(6, 5, 40))  # pieces divide the longest axis
+        filter_ = self.new("Grid", samples, SamplingDimensions=(6, 5, 40))
         cells = []
         for piece in range(3):
             filter_.UpdatePiece(piece, 3, 0)
             self.assertEqual(filter_.GetErrorCode(), 0)
             cells.append(filter_.GetOutput().GetNumberOfCells())
-        self.assertEqual(cells, [20, 0, 0])
+        self.assertEqual(sum(cells), 20)
 
     def test_time_steps_are_those_of_the_source(self):
         filter_ = self.probe(cloud(), some_places(1))
