@@ -103,6 +103,17 @@ def values_of(array: Any, count: int) -> tuple[np.ndarray, Optional[np.ndarray]]
             masked if masked is not None and masked.any() else None)
 
 
+def negated(numbers: np.ndarray) -> np.ndarray:
+    """Negated numbers. Integers stay integers, since they count as rounded, unless int64 cannot hold one."""
+    if numbers.dtype.kind == "f":
+        return -numbers
+    limits = np.iinfo(np.int64)
+    if numbers.dtype == np.uint64 and numbers.size and numbers.max() > limits.max:
+        return -numbers.astype(np.float64)
+    # The library reads the least and the negated greatest number as the same double.
+    return -np.maximum(numbers.astype(np.int64, copy=False), -limits.max)
+
+
 def describe_masked(masked: np.ndarray) -> str:
     """A message about values that are masked."""
     remedy = "Give values that are not masked." if masked.all() else (

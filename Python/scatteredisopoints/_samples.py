@@ -16,8 +16,8 @@ import numpy as np
 
 from . import _datasets, _library
 from ._arrays import (
-    are_names, as_numpy, by_name, checked_tensors, describe_masked, further_arrays, levels_of, positions_of, readable,
-    values_of)
+    are_names, as_numpy, by_name, checked_tensors, describe_masked, further_arrays, levels_of, negated, positions_of,
+    readable, values_of)
 from ._bodies import body_with_warnings
 from ._cuts import Normal
 from ._interpolator import Interpolator
@@ -223,9 +223,7 @@ class Samples:
         if self._loaded_key != sign and (self._values is not None or is_lost):
             numbers = None if self._values is None else readable("values", as_numpy(self._values))
             if sign < 0 and numbers is not None:
-                is_narrow = numbers.dtype.kind in "iu" and numbers.dtype.itemsize < 8
-                wide = np.int64 if is_narrow else numbers.dtype if numbers.dtype == np.float32 else np.float64
-                numbers = -numbers.astype(wide, copy=False)
+                numbers = negated(numbers)
             self._load_values(sign, numbers, [self._excluded, self._masked], callbacks)
 
     def _require_samples(self) -> None:

@@ -259,6 +259,25 @@ class ContourTest(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "unknown option gradient_directions: did you mean gradient_direction?"):
             kept.contour(0.3, gradient_directions="ascent")
 
+    def test_gradient_direction_of_wide_integers(self):
+        """Integers of 8 bytes, NumPy's default, count as rounded as others do."""
+        positions, distance = samples(4000)
+        rounded = np.rint(30 * distance)
+        expected = contour(positions, rounded.astype(np.int32), 9, gradient_direction="ascent")
+        for values in (rounded.astype(np.int64), rounded.astype(np.uint64)):
+            found = contour(positions, values, 9, gradient_direction="ascent")
+            by_hand = contour(positions, -rounded.astype(np.int64), -9)
+            for other in (expected, by_hand):
+                self.assertEqual(found.points.tobytes(), other.points.tobytes())
+                self.assertEqual(found.normals.tobytes(), other.normals.tobytes())
+        ends = np.array([np.iinfo(np.int64).min, np.iinfo(np.int64).max])[(distance > 0.3).astype(int)]
+        for values in (ends, np.where(distance > 0.3, np.uint64(2**64 - 1), np.uint64(0))):
+            middle = 0 if values.dtype == np.int64 else 2.0**63
+            found = contour(positions, values, middle, gradient_direction="ascent", projection=None)
+            negated = contour(positions, -values.astype(np.float64), -middle, projection=None)
+            self.assertGreater(len(found), 100)
+            self.assertEqual(found.points.tobytes(), negated.points.tobytes())
+
     def test_arrays_of_other_types(self):
         positions, values = samples()
         for dtype in (np.int16, np.uint16, np.int32, np.int64, np.uint64):
