@@ -321,8 +321,9 @@ typedef enum isopoint_place_flag
  * Components: ISOPOINT_PROBE_BLEND fits all components of an array alike, so that turned vectors
  * give turned results. Its values exceed the range of the samples around only at extrema that these
  * show.
- * Integers are assumed to be rounded. With ISOPOINT_PROBE_NEAREST they get `outside_number` without
- * its fraction, or 0 if their type cannot hold it.
+ * Integers are assumed to be rounded. Values of an array of integers stay within the range of each
+ * component in the samples that are not excluded. With ISOPOINT_PROBE_NEAREST, as for ids, they get
+ * `outside_number` without its fraction, or 0 if their type cannot hold it.
  *
  * Cost: O(log n) for each place after O(n) for the first, except where very many samples have the
  * same distance.
@@ -365,8 +366,8 @@ ISOPOINT_API isopoint_status isopoint_probe_neighborhoods(
   const isopoint_probe_result* results, uint8_t* flags, size_t flags_size);
 
 /* Weights of samples: a sparse matrix with a row for each place, in compressed rows. Its product
- * with an array is the value at each place. Coincident samples share a weight, except with
- * ISOPOINT_PROBE_NEAREST. */
+ * with an array is the value at each place; for integers, before it is limited to their range.
+ * Coincident samples share a weight, except with ISOPOINT_PROBE_NEAREST. */
 typedef struct isopoint_weights
 {
   int64_t row_count;

@@ -9,6 +9,7 @@
 #include "Input/vtkIsopointNumbers.h"
 #include "Output/vtkIsopointEndSamples.h"
 #include "Output/vtkIsopointOutputArrays.h"
+#include "Output/vtkIsopointSampleArrays.h"
 
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
@@ -173,9 +174,8 @@ void vtkIsopointCut::MovePoints(const isopoint::Execution& execution,
   for (int k = 0; k < slice->GetPointData()->GetNumberOfArrays(); ++k)
   {
     vtkDataArray* const array = slice->GetPointData()->GetArray(k);
-    const bool isId =
-      slice->GetPointData()->IsArrayAnAttribute(k) == vtkDataSetAttributes::PEDIGREEIDS;
-    if (array && array->GetName() && !isId)
+    const int attribute = slice->GetPointData()->IsArrayAnAttribute(k);
+    if (array && array->GetName() && !vtkHasIsopointIds(array, attribute))
     {
       arrays.emplace_back(ends.GetAttributes()->GetArray(array->GetName()), array);
     }

@@ -205,8 +205,8 @@ void vtkMakeIsopointGrid(const double bounds[6], const int dimensions[3], int wh
   output->SetExtent(extent);
 }
 
-void vtkAddIsopointTuples(
-  vtkDataArray* all, vtkIdType first, vtkIdType count, int attribute, vtkDataSetAttributes* output)
+void vtkAddIsopointTuples(vtkAbstractArray* all, vtkIdType first, vtkIdType count, int attribute,
+  vtkDataSetAttributes* output)
 {
   vtkSmartPointer<vtkAbstractArray> own = all;
   if (count != all->GetNumberOfTuples())

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-class vtkDataArray;
+class vtkAbstractArray;
 class vtkDataObject;
 class vtkDataSet;
 class vtkDoubleArray;
@@ -56,18 +56,19 @@ public:
   void FindBounds(double bounds[6]) const;
 
   /// Interpolates all arrays of the samples. Counts places, arrays left out, and places outside.
+  /// @param nearest names of arrays that take the nearest value, besides ids and strings
   /// @param own names of arrays that the filter makes itself; those of samples are left out
   /// @param isOutsideHidden whether places outside will be hidden
   /// @param kinds receives isopoint::PlaceKinds of each place
   /// @returns arrays with a tuple for each place; active attributes are listed beside them
   struct Array
   {
-    vtkSmartPointer<vtkDataArray> Values;
+    vtkSmartPointer<vtkAbstractArray> Values;
     int Attribute; // a vtkDataSetAttributes::AttributeTypes, or -1
   };
   std::vector<Array> ProbeAll(const std::vector<isopoint::Vector>& places,
-    const isopoint::ProbeOptions& options, const std::set<std::string>& own, bool isOutsideHidden,
-    std::vector<std::uint8_t>& kinds);
+    const isopoint::ProbeOptions& options, const std::vector<std::string>& nearest,
+    const std::set<std::string>& own, bool isOutsideHidden, std::vector<std::uint8_t>& kinds);
 
   /// The chosen array of the samples, perhaps without a name.
   /// @throws isopoint::UsageError if blocks have different numbers of components

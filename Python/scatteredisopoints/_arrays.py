@@ -11,7 +11,7 @@ from typing import Any, Iterable, Mapping, Optional, Union
 import numpy as np
 
 # As in vtkType.h and vtkDataObject::FieldAssociations.
-BIT, UNSIGNED_CHAR, FLOAT = 1, 3, 10
+BIT, UNSIGNED_CHAR, FLOAT, ID_TYPE = 1, 3, 10, 12
 POINT, CELL = 0, 1
 
 MAPPING_NEEDED = "arrays are a mapping of names, which are strings, to arrays"

@@ -7,7 +7,7 @@ import importlib
 import importlib.util
 import math
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Mapping, Optional
+from typing import TYPE_CHECKING, Any, Collection, Mapping, Optional
 
 import numpy as np
 
@@ -30,6 +30,9 @@ class PolyDataMaker:
 
     uses: Mapping[str, int] = field(default_factory=dict)
     """Arrays that are an attribute: vectors, texture coordinates, ..."""
+
+    id_types: Collection[str] = ()
+    """Arrays of the type vtkIdType."""
 
     field_data: Any = None
     """Arrays of the whole input, a vtkFieldData."""
@@ -67,7 +70,8 @@ class PolyDataMaker:
             data.SetVerts(cells(np.arange(len(surface.points), dtype=np.int64)[:, None]))
         attributes = data.GetPointData()
         for name, array in surface.arrays.items():
-            index = attributes.AddArray(as_vtk(package, name, array))
+            index = attributes.AddArray(
+                as_vtk(package, name, array, id_type if name in self.id_types and array.dtype == np.int64 else None))
             if name in self.uses:
                 attributes.SetActiveAttribute(index, self.uses[name])
         if self.scalars in surface.arrays:
@@ -89,12 +93,12 @@ class PolyDataMaker:
         return data
 
 
-def as_vtk(package: str, name: str, array: np.ndarray) -> Any:
+def as_vtk(package: str, name: str, array: np.ndarray, data_type: Optional[int] = None) -> Any:
     """A VTK array that shares the memory and keeps it alive. Copies layouts that VTK does not have, and
     read-only arrays, which numpy_to_vtk() refuses. Tensors become vectors."""
     support = importlib.import_module(package + ".util.numpy_support")
     table = array if array.ndim < 3 else array.reshape(len(array), math.prod(array.shape[1:]))
-    result = support.numpy_to_vtk(np.require(table, requirements=["C", "W"]))
+    result = support.numpy_to_vtk(np.require(table, requirements=["C", "W"]), array_type=data_type)
     result.SetName(name)
     return result
 
