@@ -440,7 +440,10 @@ typedef enum isopoint_message_code
   ISOPOINT_MESSAGE_SPLATS_APART = 9,       /* many splats do not meet */
   ISOPOINT_MESSAGE_BEYOND_FLOAT = 10,      /* float cannot hold positions or splats */
   ISOPOINT_MESSAGE_NO_ISOVALUES = 11,      /* no surface: there are no isovalues */
-  ISOPOINT_MESSAGE_ONLY_AT_SAMPLES = 12    /* a slice is only where samples are on it; not a warning */
+  ISOPOINT_MESSAGE_ONLY_AT_SAMPLES = 12,   /* a slice is only where samples are on it; not a warning */
+  ISOPOINT_MESSAGE_ROUNDED_POSITIONS = 13, /* samples coincide, since float32 rounds their positions */
+  ISOPOINT_MESSAGE_DIFFERENT_VALUES = 14   /* samples at one position have different values; not a warning */
+  ISOPOINT_MESSAGE_ISOVALUE_AT_END = 15    /* no surface: they are the least or greatest value; a warning if there is none at all */
 } isopoint_message_code;
 
 /* A message for the user about a result, such as skipped samples or an isovalue without a surface:

@@ -243,7 +243,7 @@ std::vector<isopoint::Message> vtkIsopointProbing::Describe() const
         "the samples around are in a plane or on a line: " +
         (report.AreGradients ? "gradients have no part across."
                              : "values are those at the nearest point of it."),
-      Message::Note });
+      report.AreGradients && report.Flat == report.Places ? Message::Warning : Message::Note });
   }
   if (report.WithoutGradient > 0)
   {

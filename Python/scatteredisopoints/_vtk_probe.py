@@ -40,11 +40,12 @@ class Probing(ScatteredAlgorithm):
             return samples._probed(
                 places, numbers, options, with_gradients, part(self._advance, LOADED, 1.0), nearest=nearest)
 
-    def _describe_flat(self, kinds: np.ndarray, consequence: str) -> list[_library.Message]:
+    def _describe_flat(self, kinds: np.ndarray, consequence: str, warns_of_all: bool = False
+                       ) -> list[_library.Message]:
         flat = np.count_nonzero(kinds & _library.PLACE_FLAT)
         return [] if flat == 0 else [_library.Message(
             f"At {flat} of {len(kinds)} points the samples around are in a plane or on a line: {consequence}",
-            is_warning=False, cause="flat")]
+            is_warning=warns_of_all and flat == len(kinds), cause="flat")]
 
 
 @with_properties("ScatteredProbe")

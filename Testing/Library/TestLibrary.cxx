@@ -418,7 +418,7 @@ TEST(Library, MessagesAreJoined)
   ASSERT_EQ(isopoint_join_messages(joined.get(), surfaces[1].get()), ISOPOINT_OK);
   EXPECT_EQ(isopoint_get_dropped_count(joined.get()), dropped);
   const std::string outside = isopoint_get_message(joined.get(), 0, nullptr);
-  expectContains(outside, "No isosurface at 99: ");
+  expectContains(outside, ": no isosurface at 99. ");
   expectContains(isopoint_get_message(joined.get(), 1, nullptr), "Skipped 2 of 10000");
   EXPECT_EQ(isopoint_get_message(joined.get(), 2, nullptr), nullptr);
   const Surface other = Extractor(Cloud()).extract({ 0.5 });

@@ -244,11 +244,11 @@ class ContourTest(unittest.TestCase):
         np.testing.assert_array_equal(kept.contour(0.3).points, before.points)
         self.assertGreater(contour(cloud_of(positions, distance), None, 0.3, gradient_direction="ascent",
                                    triangles=True).volume, 0)
-        with self.assertWarnsRegex(RuntimeWarning, 'No isosurface at -3: "negated values" is from .* to -'):
+        with self.assertWarnsRegex(RuntimeWarning, '^"negated values" is from .* to -.*: no isosurface at -3'):
             kept.contour(3.0, gradient_direction="ascent")
-        with self.assertWarnsRegex(RuntimeWarning, "No isosurface at 3: the array is from"):
+        with self.assertWarnsRegex(RuntimeWarning, "^The array is from .*: no isosurface at 3"):
             kept.contour(3.0)
-        with self.assertWarnsRegex(RuntimeWarning, 'No isosurface at -3: "negated f" is from'):
+        with self.assertWarnsRegex(RuntimeWarning, '^"negated f" is from .*: no isosurface at -3'):
             contour(cloud_of(positions, distance, "f"), "f", 3.0, gradient_direction="ascent")
         apart = np.vstack([positions, positions + 100.0])
         with self.assertWarnsRegex(RuntimeWarning, 'No isosurface at -0.5 of "negated values": all of it is'):
@@ -365,9 +365,9 @@ class ContourTest(unittest.TestCase):
         for call in body, slice_samples:
             with self.assertRaisesRegex(TypeError, "arrays are a mapping of names, which are strings"):
                 call(positions, arrays={1: values})
-        with self.assertWarnsRegex(RuntimeWarning, "No isosurface at .*: .* than .* and less than"):
+        with self.assertWarnsRegex(RuntimeWarning, "no isosurface at .* Choose isovalues between"):
             contour(positions, values, values.max(), triangles=True)
-        with self.assertWarnsRegex(RuntimeWarning, "Choose isovalues that are less than"):
+        with self.assertWarnsRegex(RuntimeWarning, "Choose isovalues less than"):
             contour(positions, values, values.max(), triangles=True, capping=True)
         with self.assertWarnsRegex(RuntimeWarning, "No body: the samples are in one plane. Add"):
             contour(positions * [1, 1, 0], values, -np.inf, triangles=True, capping=True)
@@ -381,7 +381,7 @@ class ContourTest(unittest.TestCase):
             contour(apart, steps, [25.0, 70.0], triangles=True)
         texts = [str(each.message) for each in caught]
         self.assertRegex("\n".join(texts), "at 25: all of it is in gaps")
-        self.assertRegex("\n".join(texts), "at 70: the array is from")
+        self.assertRegex("\n".join(texts), "The array is from .*: no isosurface at 70")
 
     def test_arrays_that_are_not_finite(self):
         positions, values = samples()
