@@ -122,7 +122,7 @@ Message describeIsovaluesOutside(const Report& report, const std::vector<double>
   const bool areEnds = std::all_of(outside.begin(), outside.end(),
     [&](double isovalue) { return isovalue == report.least || isovalue == report.greatest; });
   const bool isExpected = areEnds && (report.pointCount() > 0 || report.hadSurface);
-  return { "isovalues outside of " + report.array + ": " + join(outside, digits),
+  return { "isovalues outside of " + report.array + ": " + isovalues,
     array + " is from " + least + " to " + greatest + ": no isosurface at " + isovalues +
       ". Choose isovalues " +
       (report.areCapped ? "less than " + greatest : "between " + least + " and " + greatest) + ".",
