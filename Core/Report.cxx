@@ -496,8 +496,9 @@ void Report::countSamples(const IsosurfaceExtractor& extractor, const CloudCount
   this->areFloatPositions = this->areFloatPositions || extractor.hasFloatPositions();
 }
 
-void Report::countCoincident(const Isosurface& surface, std::size_t isopoint)
+void Report::countCoincident(const ExtractedIsosurface& extracted, std::size_t isopoint)
 {
+  const auto& surface = extracted.surface;
   bool isAny = false;
   bool isDifferent = false;
   for (std::size_t k = surface.edgeBegin(isopoint); k < surface.edgeBegin(isopoint + 1); ++k)
@@ -528,7 +529,7 @@ void Report::countSurface(std::size_t isovalue, const ExtractedIsosurface& surfa
       this->box = united(this->box, { p, p });
       if (!surface.surface.coincident.empty())
       {
-        this->countCoincident(surface.surface, i);
+        this->countCoincident(surface, i);
       }
     }
     const double farthest = std::max({ std::abs(p[0]), std::abs(p[1]), std::abs(p[2]) });

@@ -135,7 +135,7 @@ struct Report : SampleCounts
   void countSurface(std::size_t isovalue, const ExtractedIsosurface& surface);
 
   /// Counts the edges of an isopoint that end at several samples.
-  void countCoincident(const Isosurface& surface, std::size_t isopoint);
+  void countCoincident(const ExtractedIsosurface& surface, std::size_t isopoint);
 
   /// Adds the counts of another block, with the same isovalues and options, contoured separately.
   void add(const Report& other);

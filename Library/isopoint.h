@@ -442,7 +442,7 @@ typedef enum isopoint_message_code
   ISOPOINT_MESSAGE_NO_ISOVALUES = 11,      /* no surface: there are no isovalues */
   ISOPOINT_MESSAGE_ONLY_AT_SAMPLES = 12,   /* a slice is only where samples are on it; not a warning */
   ISOPOINT_MESSAGE_ROUNDED_POSITIONS = 13, /* samples coincide, since float32 rounds their positions */
-  ISOPOINT_MESSAGE_DIFFERENT_VALUES = 14   /* samples at one position have different values; not a warning */
+  ISOPOINT_MESSAGE_DIFFERENT_VALUES = 14,  /* samples at one position have different values; not a warning */
   ISOPOINT_MESSAGE_ISOVALUE_AT_END = 15    /* no surface: they are the least or greatest value; a warning if there is none at all */
 } isopoint_message_code;
 

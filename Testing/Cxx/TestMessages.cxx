@@ -208,7 +208,7 @@ TEST(Messages, PositionsThatFloatRoundsAreNamed)
       const auto cloud = newCloud(2000);
       move(cloud->GetPoints(),
         [&](const Vector& p) {
-          return isFar ? Vector{ 2.0 * p[0] + 5e5, 2.0 * p[1] + 5.4e6, 2.0 * p[2] } : p;
+          return isFar ? Vector{ 2.0 * p[0] + 5e6, 2.0 * p[1] + 5e6, 2.0 * p[2] + 5e6 } : p;
         });
       const auto filter = bothFilters(cloud)[kind];
       SCOPED_TRACE(filter->GetClassName());
@@ -378,7 +378,8 @@ TEST(Messages, TrianglesAreTheRemedyWhereSplatsDoNotMeet)
       return Vector{ std::pow(p[0], 6), std::pow(p[1], 6), std::pow(p[2], 6) };
     });
   cloud->GetPoints()->Modified();
-  expectOne(messagesOf(filter), { "Splats", "Scattered Isosurface, or the option triangles." });
+  expectOne(
+    messagesOf(filter), { "Splats", "Extract triangles instead, as Scattered Isosurface does." });
   filter->SetComputeSplats(false);
   EXPECT_TRUE(messagesOf(filter).empty());
 }
@@ -415,7 +416,7 @@ TEST(Messages, CauseAndFiguresComeFirst)
 {
   const Words warnings = messagesOf(newFilter(newCloud(500), 9.0));
   ASSERT_EQ(warnings.size(), 1u);
-  const std::size_t begin = warnings.front().find("No isosurface");
+  const std::size_t begin = warnings.front().find("\"distance\" is from");
   ASSERT_NE(begin, std::string::npos);
   EXPECT_LE(warnings.front().find("Choose") - begin, 72u);
 }
