@@ -31,14 +31,14 @@ class PolyDataMaker:
     uses: Mapping[str, int] = field(default_factory=dict)
     """Arrays that are an attribute: vectors, texture coordinates, ..."""
 
-    id_types: Collection[str] = ()
-    """Arrays of the type vtkIdType."""
-
     field_data: Any = None
     """Arrays of the whole input, a vtkFieldData."""
 
     normals: Optional[str] = "Normals"
     """The name of computed normals; None: there are none, and an array of this name is one of the samples."""
+
+    id_types: Collection[str] = ()
+    """Arrays of the type vtkIdType."""
 
     def __getstate__(self) -> dict[str, Any]:
         return {**vars(self), "field_data": None}  # VTK's objects cannot be pickled

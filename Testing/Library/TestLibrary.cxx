@@ -268,7 +268,7 @@ TEST(Library, EachReasonOfAnEmptySurfaceHasACode)
   EXPECT_EQ(codeOf(few, (few.values[0] + few.values[1]) / 2.0), ISOPOINT_MESSAGE_TOO_FEW_SAMPLES);
   Cloud cloud;
   const double greatest = *std::max_element(cloud.values.begin(), cloud.values.end());
-  EXPECT_EQ(codeOf(cloud, greatest), ISOPOINT_MESSAGE_ISOVALUE_OUTSIDE);
+  EXPECT_EQ(codeOf(cloud, greatest), ISOPOINT_MESSAGE_ISOVALUE_AT_END);
   for (std::size_t i = 2; i < cloud.positions.size(); i += 3)
   {
     cloud.positions[i] = 0.0;
