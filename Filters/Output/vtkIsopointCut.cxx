@@ -9,7 +9,6 @@
 #include "Input/vtkIsopointNumbers.h"
 #include "Output/vtkIsopointEndSamples.h"
 #include "Output/vtkIsopointOutputArrays.h"
-#include "Output/vtkIsopointSampleArrays.h"
 
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"

@@ -4,7 +4,6 @@
 #include "Common/vtkIsopointArrays.h"
 #include "Core/Options.h"
 #include "Core/OutputArrays.h"
-#include "Output/vtkIsopointSampleArrays.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkAbstractArray.h"

@@ -28,8 +28,6 @@ namespace
 
 using Arrays = std::vector<vtkIsopointSampleArray>;
 
-constexpr int processIds = 11; // vtkDataSetAttributes::PROCESSIDS, since VTK 9.3
-
 /// The arrays of a block; those without values for all samples have no components.
 Arrays arraysOf(const vtkIsopointBlock& block, const std::vector<std::string>& nearest)
 {
@@ -166,13 +164,6 @@ vtkIsopointSampleArray vtkFindIsopointArray(isopoint::ProcessGroup& processes,
     found.Parts.push_back(vtkDataArray::SafeDownCast(choice.Find(block.Attributes)));
   }
   return found;
-}
-
-bool vtkHasIsopointIds(vtkAbstractArray* array, int attribute)
-{
-  return attribute == vtkDataSetAttributes::GLOBALIDS ||
-         attribute == vtkDataSetAttributes::PEDIGREEIDS || attribute == processIds ||
-         array->GetDataType() == VTK_ID_TYPE;
 }
 
 std::vector<vtkIsopointSampleArray> vtkListIsopointArrays(isopoint::ProcessGroup& processes,

@@ -33,10 +33,6 @@ struct vtkIsopointSampleArray
   std::vector<vtkAbstractArray*> Parts; // by block of this rank
 };
 
-/// Whether an array has ids: global, pedigree and process ids, and arrays of type vtkIdType.
-/// @param attribute a vtkDataSetAttributes::AttributeTypes, or -1
-bool vtkHasIsopointIds(vtkAbstractArray* array, int attribute);
-
 /// Lists the arrays of numbers and strings that all blocks of all ranks have with as many
 /// components, in the order of the first block. Ghost marks are never among them. Collective.
 /// @param nearest names of arrays that take the nearest value, besides ids and strings

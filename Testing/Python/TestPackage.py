@@ -370,7 +370,8 @@ class Results(unittest.TestCase):
     def test_messages_of_many_isovalues_are_short(self):
         with self.assertWarns(RuntimeWarning) as caught:
             contour(*cloud(100), np.arange(2.0, 5002.0))
-        self.assertRegex(str(caught.warning), "^The array is from .* to .*: no isosurface at 2, 3, 4 and 4997 more. Choose")
+        self.assertRegex(
+            str(caught.warning), "^The array is from .* to .*: no isosurface at 2, 3, 4 and 4997 more. Choose")
         self.assertLess(len(str(caught.warning)), 150)
 
     def test_isovalues_are_always_given(self):
