@@ -67,6 +67,16 @@ inline bool vtkIsGhostArrayName(const char* name)
   return name && std::strcmp(name, vtkDataSetAttributes::GhostArrayName()) == 0;
 }
 
+/// Whether an array has ids: global, pedigree and process ids, and arrays of type vtkIdType.
+/// @param attribute a vtkDataSetAttributes::AttributeTypes, or -1
+inline bool vtkHasIsopointIds(vtkAbstractArray* array, int attribute)
+{
+  constexpr int processIds = 11; // vtkDataSetAttributes::PROCESSIDS, since VTK 9.3
+  return attribute == vtkDataSetAttributes::GLOBALIDS ||
+         attribute == vtkDataSetAttributes::PEDIGREEIDS || attribute == processIds ||
+         array->GetDataType() == VTK_ID_TYPE;
+}
+
 /// Whether an array holds numbers of type float or double.
 inline bool vtkIsReal(vtkAbstractArray* array)
 {

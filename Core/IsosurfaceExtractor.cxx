@@ -67,6 +67,17 @@ std::size_t IsosurfaceExtractor::skippedCount() const
   return std::visit([](const auto& cloud) { return cloud.tree.skipped; }, this->Cloud);
 }
 
+bool IsosurfaceExtractor::hasFloatPositions() const
+{
+  return std::visit(
+    [](const auto& cloud)
+    {
+      using Sample = std::decay_t<decltype(cloud.tree.samples[0])>;
+      return std::is_same_v<typename Sample::Coordinate, float>;
+    },
+    this->Cloud);
+}
+
 std::pair<double, double> IsosurfaceExtractor::valueRange() const
 {
   return std::visit(

@@ -137,6 +137,9 @@ public:
   /// The number of items left out.
   std::size_t skippedCount() const;
 
+  /// Whether positions are held as float.
+  bool hasFloatPositions() const;
+
   /// The least and greatest value of the samples in use on all ranks; +infinity, -infinity if none.
   std::pair<double, double> valueRange() const;
 

@@ -124,6 +124,11 @@ void IsosurfaceExtractor::probe(const Execution& execution, const Neighborhoods&
         result[i] = numbers[static_cast<std::size_t>(component)][ids[i]];
       }
     };
+    if (array.writeNearest)
+    {
+      fetched.writeNearest = [&](std::size_t place, const std::uint64_t* index)
+      { array.writeNearest(place, index ? &neighborhoods.ids[*index] : nullptr); };
+    }
     probeNeighborhoods(execution, neighborhoods, { fetched }, true);
   }
 }

@@ -45,7 +45,7 @@ std::string join(const std::vector<std::string>& parts)
 /// All numbers, or the first ones and how many more there are.
 std::string join(const std::vector<double>& numbers, int digits)
 {
-  constexpr std::size_t most = 10;
+  constexpr std::size_t most = 3;
   const std::size_t shown = std::min(numbers.size(), most);
   std::vector<std::string> texts;
   std::transform(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(shown),
@@ -103,12 +103,7 @@ std::string describeRange(
   {
     return report.areNegated ? "greater than " + least : "less than " + greatest;
   }
-  if (report.areTriangles)
-  {
-    return "greater than " + least + " and less than " + greatest;
-  }
-  return report.areNegated ? "less than " + greatest + ", down to " + least
-                           : "greater than " + least + ", up to " + greatest;
+  return "between " + least + " and " + greatest;
 }
 
 Message describeIsovaluesOutside(const Report& report, const std::vector<double>& outside)
@@ -136,10 +131,16 @@ Message describeIsovaluesOutside(const Report& report, const std::vector<double>
   }
   const std::string isovalues = join(outside, digits);
   const std::string greatest = textOf(report.greatest, digits);
+  const std::string array = report.array.empty() ? "The array" : describeArray(report);
+  // Ranges of isovalues and animations begin and end where surfaces do.
+  const bool areEnds = std::all_of(outside.begin(), outside.end(),
+    [&](double isovalue) { return isovalue == report.least || isovalue == report.greatest; });
+  const bool isExpected = areEnds && (report.pointCount() > 0 || report.hadSurface);
   return { "isovalues outside of " + report.array + ": " + isovalues,
-    "No isosurface at " + isovalues + ": " + describeArray(report) + " is from " + least + " to " +
-      greatest + ". Choose isovalues that are " + describeRange(report, least, greatest) + ".",
-    Message::Warning, Message::IsovalueOutside };
+    array + " is from " + least + " to " + greatest + ": no isosurface at " + isovalues +
+      ". Choose isovalues " + describeRange(report, least, greatest) + ".",
+    isExpected ? Message::Note : Message::Warning,
+    areEnds ? Message::IsovalueAtEnd : Message::IsovalueOutside };
 }
 
 /// Whether an isovalue can have a surface.
@@ -302,15 +303,67 @@ std::vector<Message> describeIsovalues(const Report& report, OptionNaming naming
     describeEmptyIsovalues(shown, empty, false, naming) };
 }
 
+/// Whether float is too coarse for the positions of samples around the surface: many coincide.
+bool areRounded(const Report& report)
+{
+  constexpr std::uint64_t minShare = 10;
+  if (!report.areFloatPositions || minShare * report.coincident <= report.pointCount())
+  {
+    return false;
+  }
+  double farthest = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    farthest =
+      std::max({ farthest, std::abs(report.box.lower[axis]), std::abs(report.box.upper[axis]) });
+  }
+  const double step = farthest * static_cast<double>(std::numeric_limits<float>::epsilon());
+  const double spacing = lengthOf(report.box.upper - report.box.lower) /
+                         std::sqrt(static_cast<double>(report.pointCount()));
+  constexpr double fewSteps = 10.0; // in the spacing of points
+  return fewSteps * step > spacing;
+}
+
+/// Samples at one position, if this is likely to matter and is not as expected.
+Message describeCoincident(const Report& report)
+{
+  const std::string at = " at " + std::to_string(report.coincident) + " of " +
+                         std::to_string(report.pointCount()) + " points";
+  if (areRounded(report))
+  {
+    return { "rounded positions: " + tenths(report.coincident, report.pointCount()),
+      "Samples coincide" + at +
+        ", because positions so far from the origin are rounded to float32. Give positions as"
+        " double, or subtract an offset before they become float32.",
+      Message::Warning, Message::RoundedPositions };
+  }
+  if (report.differing == 0 || report.subject != Report::Isosurface)
+  {
+    return {};
+  }
+  return { "coincident samples of " + report.array + ": " +
+             tenths(report.differing, report.pointCount()),
+    "Samples at one position have different values next to " + std::to_string(report.differing) +
+      " of " + std::to_string(report.pointCount()) +
+      " points: their mean counts. To count one of them, leave the others out.",
+    Message::Note, Message::DifferentValues };
+}
+
+/// Whether fits hold at so few points that the samples do not determine a surface. Those on lines
+/// make debris: most of the surface is in gaps, and fits hold at pieces of it.
 bool areMostUnprojected(const Report& report)
 {
-  return report.areProjected && 2 * report.unprojectedPoints > report.pointCount();
+  constexpr std::uint64_t fewOfDebris = 5;
+  constexpr std::uint64_t most = 2;
+  const std::uint64_t points = report.pointCount();
+  const bool isDebris = report.areTriangles && report.droppedCount() > points;
+  return report.areProjected && (isDebris ? fewOfDebris : most) * report.unprojectedPoints > points;
 }
 
 Message describeUnprojected(const Report& report, OptionNaming naming)
 {
   const std::uint64_t points = report.pointCount();
-  if (!areMostUnprojected(report))
+  if (!areMostUnprojected(report) || areRounded(report))
   {
     return {};
   }
@@ -340,7 +393,7 @@ Message describeCornersApart(const Report& report)
     "Splats do not meet at " + std::to_string(report.cornersApart) + " of " +
       std::to_string(report.innerCorners) +
       " corners: the picture may have holes, since samples are too uneven or too few for splats."
-      " Extract triangles instead, by Scattered Isosurface, or the option triangles.",
+      " Extract triangles instead, as Scattered Isosurface does.",
     Message::Warning, Message::SplatsApart };
 }
 
@@ -465,6 +518,25 @@ void Report::countSamples(const IsosurfaceExtractor& extractor, const CloudCount
   const auto [lowest, highest] = extractor.valueRange();
   this->least = std::min(this->least, lowest);
   this->greatest = std::max(this->greatest, highest);
+  this->areFloatPositions = this->areFloatPositions || extractor.hasFloatPositions();
+}
+
+void Report::countCoincident(const ExtractedIsosurface& extracted, std::size_t isopoint)
+{
+  const auto& surface = extracted.surface;
+  bool isAny = false;
+  bool isDifferent = false;
+  for (std::size_t k = surface.edgeBegin(isopoint); k < surface.edgeBegin(isopoint + 1); ++k)
+  {
+    for (const std::uint64_t end : { surface.edges[k].first, surface.edges[k].second })
+    {
+      const CoincidentSamples* const group = surface.coincidentAt(end);
+      isAny = isAny || group;
+      isDifferent = isDifferent || (group && !group->haveOneValue);
+    }
+  }
+  this->coincident += isAny ? 1 : 0;
+  this->differing += isDifferent ? 1 : 0;
 }
 
 void Report::countSurface(std::size_t isovalue, const ExtractedIsosurface& surface)
@@ -477,6 +549,14 @@ void Report::countSurface(std::size_t isovalue, const ExtractedIsosurface& surfa
   for (std::size_t i = 0; i < surface.surface.size(); ++i)
   {
     const Vector& p = surface.surface.positions[i];
+    if (isHere(i))
+    {
+      this->box = united(this->box, { p, p });
+      if (!surface.surface.coincident.empty())
+      {
+        this->countCoincident(surface, i);
+      }
+    }
     const double farthest = std::max({ std::abs(p[0]), std::abs(p[1]), std::abs(p[2]) });
     const double radius = surface.splats.empty() ? 0.0 : surface.splats[i].radius;
     const auto isBeyondFloat = [](double length)
@@ -510,10 +590,10 @@ void Report::add(const Report& other)
     this->points.begin(), std::plus<>());
   std::transform(this->dropped.begin(), this->dropped.end(), other.dropped.begin(),
     this->dropped.begin(), std::plus<>());
-  for (const auto count :
-    std::initializer_list<std::uint64_t Report::*>{ &Report::unprojectedPoints,
-      &Report::innerCorners, &Report::cornersApart, &Report::beyondFloat, &Report::samples,
-      &Report::notFinite, &Report::excluded, &Report::withoutArray })
+  for (const auto count : std::initializer_list<std::uint64_t Report::*>{
+         &Report::unprojectedPoints, &Report::innerCorners, &Report::cornersApart,
+         &Report::beyondFloat, &Report::coincident, &Report::differing, &Report::samples,
+         &Report::notFinite, &Report::excluded, &Report::withoutArray })
   {
     this->*count += other.*count;
   }
@@ -522,6 +602,8 @@ void Report::add(const Report& other)
   this->least = std::min(this->least, other.least);
   this->greatest = std::max(this->greatest, other.greatest);
   this->areSinglePoints = this->areSinglePoints || other.areSinglePoints;
+  this->areFloatPositions = this->areFloatPositions || other.areFloatPositions;
+  this->box = united(this->box, other.box);
   this->contoursBlocks = this->contoursBlocks || (before > 0 && other.samples > 0);
 }
 
@@ -529,10 +611,15 @@ void Report::share(ProcessGroup& processes)
 {
   processes.sum(this->points); // the number of isovalues is the same on all ranks
   processes.sum(this->dropped);
-  for (std::uint64_t* const count :
-    { &this->unprojectedPoints, &this->innerCorners, &this->cornersApart, &this->beyondFloat })
+  for (std::uint64_t* const count : { &this->unprojectedPoints, &this->innerCorners,
+         &this->cornersApart, &this->beyondFloat, &this->coincident, &this->differing })
   {
     *count = processes.sum(*count);
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    this->box.lower[axis] = fromOrderedKey(~processes.maximum(~orderedKey(this->box.lower[axis])));
+    this->box.upper[axis] = fromOrderedKey(processes.maximum(orderedKey(this->box.upper[axis])));
   }
   this->SampleCounts::share(processes);
   this->least = fromOrderedKey(~processes.maximum(~orderedKey(this->least)));
@@ -547,6 +634,7 @@ std::vector<Message> describeReport(const Report& report, OptionNaming naming)
       ? "There is no surface. Choose another array, or mend the positions."
       : "There is no surface. Mend the positions.",
     "The surface there is that of the samples around."));
+  messages.push_back(describeCoincident(report));
   messages.push_back(describeUnprojected(report, naming));
   messages.push_back(describeCornersApart(report));
   messages.push_back(describeBeyondFloat(report));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "Core/Base/Region.h"
 #include "Core/ExtractionRequest.h"
 #include "Core/Options.h"
 
@@ -39,7 +40,10 @@ struct Message
     SplatsApart = 9,
     BeyondFloat = 10,
     NoIsovalues = 11,
-    OnlyAtSamples = 12
+    OnlyAtSamples = 12,
+    RoundedPositions = 13,
+    DifferentValues = 14,
+    IsovalueAtEnd = 15
   };
   std::string cause; // constant in repeated extractions while it lasts
   std::string text;  // the cause, then the remedy, as lists may truncate it
@@ -101,6 +105,11 @@ struct Report : SampleCounts
   bool areProjected = false;            // whether fits were to move points
   bool areSinglePoints = false;         // whether positions become float
   bool contoursBlocks = false;          // whether several blocks are clouds of their own
+  bool areFloatPositions = false;       // of samples, as held
+  bool hadSurface = false;              // whether a filter had points in an earlier update
+  Region box = emptyRegion;             // of the points
+  std::uint64_t coincident = 0;         // points at the edge of several samples at one position
+  std::uint64_t differing = 0;          // those of these with different values
   std::uint64_t unprojectedPoints = 0;  // not moved by a fit
   std::uint64_t innerCorners = 0;       // of splats, see SplatCornerCounts
   std::uint64_t cornersApart = 0;       // corners that meet no others
@@ -125,6 +134,9 @@ struct Report : SampleCounts
 
   /// Counts the surface of an isovalue, by index, without points of other ranks.
   void countSurface(std::size_t isovalue, const ExtractedIsosurface& surface);
+
+  /// Counts the edges of an isopoint that end at several samples.
+  void countCoincident(const ExtractedIsosurface& surface, std::size_t isopoint);
 
   /// Adds the counts of another block, with the same isovalues and options, contoured separately.
   void add(const Report& other);

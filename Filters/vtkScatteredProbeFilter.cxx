@@ -45,6 +45,36 @@ void vtkScatteredProbeFilter::SetSourceConnection(vtkAlgorithmOutput* output)
   this->SetInputConnection(this->SamplesPort, output);
 }
 
+void vtkScatteredProbeFilter::AddNearestArray(const char* name)
+{
+  std::vector<std::string>& names = this->NearestArrays;
+  if (name && std::find(names.begin(), names.end(), name) == names.end())
+  {
+    names.emplace_back(name);
+    this->Modified();
+  }
+}
+
+void vtkScatteredProbeFilter::ClearNearestArrays()
+{
+  if (!this->NearestArrays.empty())
+  {
+    this->NearestArrays.clear();
+    this->Modified();
+  }
+}
+
+int vtkScatteredProbeFilter::GetNumberOfNearestArrays()
+{
+  return static_cast<int>(this->NearestArrays.size());
+}
+
+const char* vtkScatteredProbeFilter::GetNearestArray(int i)
+{
+  const bool exists = i >= 0 && i < this->GetNumberOfNearestArrays();
+  return exists ? this->NearestArrays[static_cast<std::size_t>(i)].c_str() : nullptr;
+}
+
 const isopoint::SampleCounts& vtkScatteredProbeFilter::GetSampleCounts() const
 {
   return this->Probing->GetCounts();
@@ -80,6 +110,10 @@ std::string vtkScatteredProbeFilter::DescribeOptions() const
   std::ostringstream text;
   text << std::hexfloat << this->Interpolation << " " << this->NullPointsStrategy << " "
        << this->NullValue << " " << this->ValidPointsMaskArrayName;
+  for (const std::string& name : this->NearestArrays)
+  {
+    text << " \"" << name << "\"";
+  }
   return text.str();
 }
 
@@ -142,7 +176,8 @@ void vtkScatteredProbeFilter::FillOutput(vtkDataObject* output)
   }
   std::vector<std::uint8_t> kinds;
   const std::vector<vtkIsopointProbing::Array> arrays = this->Probing->ProbeAll(places, options,
-    this->GetChosenArrays(), this->ListOwnArrays(), this->MarkBlankPointsAndCells != 0, kinds);
+    this->GetChosenArrays(), this->NearestArrays, this->ListOwnArrays(),
+    this->MarkBlankPointsAndCells != 0, kinds);
 
   std::vector<unsigned char> areNull(places.size());
   std::transform(kinds.begin(), kinds.end(), areNull.begin(),
@@ -172,6 +207,12 @@ void vtkScatteredProbeFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Interpolation: " << this->Interpolation << "\n";
+  os << indent << "NearestArrays:";
+  for (const std::string& name : this->NearestArrays)
+  {
+    os << " " << name;
+  }
+  os << "\n";
   os << indent << "NullPointsStrategy: " << this->NullPointsStrategy << "\n";
   os << indent << "NullValue: " << this->NullValue << "\n";
   os << indent << "ValidPointsMaskArrayName: " << this->ValidPointsMaskArrayName << "\n";

@@ -15,11 +15,13 @@
  * samples where its numbers are finite.
  *
  * The output has the type and the structure of input 0. Arrays of the samples replace those of
- * input 0 with the same name, are double (except with NEAREST), and stay active attributes. Left
- * out are ghost marks, ids and, with a message, arrays that hold no numbers, arrays that not all
- * blocks have with as many components, and those with the name of an array of the filter itself. If
- * input 0 consists of pieces, the output does too: the source is always requested as a whole. The
- * time steps are those of the source or, if it has none, of input 0.
+ * input 0 with the same name, and stay active attributes, except global and process ids. They are
+ * double, and those of integers stay within the range of their samples. With NEAREST, and where
+ * they are ids, strings or nearest arrays (see AddNearestArray()), they keep their types. Left out
+ * are ghost marks and, with a message, arrays of other values than numbers and strings, arrays that
+ * not all blocks have with as many components, and those with the name of an array of the filter
+ * itself. If input 0 consists of pieces, the output does too: the source is always requested as a
+ * whole. The time steps are those of the source or, if it has none, of input 0.
  *
  * In a process group (see SetController()) each rank has its own part of input 0, perhaps none, and
  * the sources of all ranks form one cloud.
@@ -38,6 +40,7 @@
 #include <memory> // for std::unique_ptr
 #include <set>    // for names of arrays
 #include <string> // for the name of an array
+#include <vector> // for names of arrays
 
 class vtkIsopointProbing;
 
@@ -79,6 +82,18 @@ public:
   vtkGetMacro(Interpolation, int);
   ///@}
 
+  ///@{
+  /**
+   * The names of arrays whose values are those of the nearest sample by any method, in their type:
+   * numbers of materials and the like. Global ids, pedigree ids, process ids, arrays of type
+   * vtkIdType and strings are such arrays in any case. Default: none.
+   */
+  void AddNearestArray(const char* name);
+  void ClearNearestArrays();
+  int GetNumberOfNearestArrays();
+  const char* GetNearestArray(int i);
+  ///@}
+
   enum Strategy
   {
     MASK_POINTS = 0,
@@ -89,8 +104,8 @@ public:
   ///@{
   /**
    * What null points get, those outside of the samples:
-   * - MASK_POINTS: NaN, or 0 in arrays of integers, which NEAREST keeps; and 0 in an array of char
-   *   that is 1 at all other points (see SetValidPointsMaskArrayName()).
+   * - MASK_POINTS: NaN, or 0 in arrays that keep a type of integers, or an empty string; and 0 in
+   * an array of char that is 1 at all other points (see SetValidPointsMaskArrayName()).
    * - NULL_VALUE: the NullValue.
    * - CLOSEST_POINT: the value of the nearest sample.
    *
@@ -176,6 +191,7 @@ protected:
   const std::unique_ptr<vtkIsopointProbing> Probing;
 
   int Interpolation = BLEND;
+  std::vector<std::string> NearestArrays;
   int NullPointsStrategy = MASK_POINTS;
   double NullValue = 0.0;
   std::string ValidPointsMaskArrayName = "vtkValidPointMask";

@@ -40,6 +40,36 @@ vtkImplicitFunction* vtkScatteredSliceFilter::GetCutFunction()
   return this->CutFunction;
 }
 
+void vtkScatteredSliceFilter::AddNearestArray(const char* name)
+{
+  std::vector<std::string>& names = this->NearestArrays;
+  if (name && std::find(names.begin(), names.end(), name) == names.end())
+  {
+    names.emplace_back(name);
+    this->Modified();
+  }
+}
+
+void vtkScatteredSliceFilter::ClearNearestArrays()
+{
+  if (!this->NearestArrays.empty())
+  {
+    this->NearestArrays.clear();
+    this->Modified();
+  }
+}
+
+int vtkScatteredSliceFilter::GetNumberOfNearestArrays()
+{
+  return static_cast<int>(this->NearestArrays.size());
+}
+
+const char* vtkScatteredSliceFilter::GetNearestArray(int i)
+{
+  const bool exists = i >= 0 && i < this->GetNumberOfNearestArrays();
+  return exists ? this->NearestArrays[static_cast<std::size_t>(i)].c_str() : nullptr;
+}
+
 vtkMTimeType vtkScatteredSliceFilter::GetMTime()
 {
   return std::max(
@@ -55,6 +85,7 @@ int vtkScatteredSliceFilter::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkIsopointSlicing::Options options{ *this->Options, this->CutFunction };
+  options.Nearest = this->NearestArrays;
   if (this->Interpolation != LINEAR)
   {
     options.Method =
@@ -70,4 +101,10 @@ void vtkScatteredSliceFilter::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "CutFunction: " << this->CutFunction.Get() << "\n";
   os << indent << "Interpolation: " << this->Interpolation << "\n";
+  os << indent << "NearestArrays:";
+  for (const std::string& name : this->NearestArrays)
+  {
+    os << " " << name;
+  }
+  os << "\n";
 }

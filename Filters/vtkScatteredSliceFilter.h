@@ -20,9 +20,9 @@
  * transform, they move onto it along the way to the sample at the end of their edge on its other
  * side. Triangles face against the function's gradient.
  *
- * Integers are rounded. Strings and pedigree ids are those of the nearer
- * end of the edge; global ids are left out and, with a message, arrays that not all blocks have. A
- * function that is not finite at a sample with a finite position is an error.
+ * Integers are rounded, and stay within the range of their samples. Ids and strings are those of
+ * the nearest sample. Left out are, with a message, arrays that not all blocks have. A function
+ * that is not finite at a sample with a finite position is an error.
  *
  * Moving a plane along its normal keeps the tree and all values. Other changes of the function keep
  * the tree.
@@ -39,6 +39,8 @@
 #include "vtkSmartPointer.h" // for the function
 
 #include <memory> // for std::unique_ptr
+#include <string> // for names of arrays
+#include <vector>
 
 class vtkImplicitFunction;
 class vtkIsopointSlicing;
@@ -103,6 +105,18 @@ public:
 
   ///@{
   /**
+   * The names of arrays whose values are those of the nearest sample by any method, in their type:
+   * numbers of materials and the like. Global ids, pedigree ids, process ids, arrays of type
+   * vtkIdType and strings are such arrays in any case. Default: none.
+   */
+  void AddNearestArray(const char* name);
+  void ClearNearestArrays();
+  int GetNumberOfNearestArrays();
+  const char* GetNearestArray(int i);
+  ///@}
+
+  ///@{
+  /**
    * Whether to merge points and flip edges, so that triangles are well shaped; see
    * vtkScatteredIsosurfaceFilter. Default: on.
    */
@@ -125,6 +139,7 @@ protected:
 
   vtkSmartPointer<vtkImplicitFunction> CutFunction;
   int Interpolation = FITS;
+  std::vector<std::string> NearestArrays;
 
 private:
   vtkScatteredSliceFilter(const vtkScatteredSliceFilter&) = delete;

@@ -5,6 +5,7 @@
 
 #include "Core/Contour.h"
 #include "Library/Calls.h"
+#include "Library/Places.h"
 
 #include <cstdint>
 #include <string>
@@ -14,6 +15,7 @@ struct isopoint_extractor
   isopoint::IsosurfaceExtractor Extractor;
   isopoint::SampleTypes Types;
   isopoint::CloudCounts Counts;
+  isopoint::ExcludedItems Excluded;
   std::string Name;        // of the values
   bool AreNegated = false; // in the view of the user
   bool HasSamples = false; // even if all are skipped
@@ -25,6 +27,7 @@ struct isopoint_extractor
   {
     this->Extractor.clear();
     this->Counts = {};
+    this->Excluded.reset();
     this->HasSamples = this->HasValues = false;
   }
 

@@ -13,6 +13,7 @@
 #include <limits>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace isopoint
@@ -45,8 +46,28 @@ T numberAs(double number)
   return isInside ? static_cast<T>(number) : T{ 0 };
 }
 
+/// The range of a component in the samples that are not excluded. O(samples)
+template <class T>
+std::pair<double, double> rangeOf(
+  const ArrayReader& reader, const ExcludedItems& excluded, int component)
+{
+  T least = std::numeric_limits<T>::max();
+  T greatest = std::numeric_limits<T>::lowest();
+  for (std::size_t id = 0; id < reader.count(); ++id)
+  {
+    if (!excluded || !(*excluded)[id])
+    {
+      const T number = reader.at<T>(id, component);
+      least = std::min(least, number);
+      greatest = std::max(greatest, number);
+    }
+  }
+  return { static_cast<double>(least), static_cast<double>(greatest) };
+}
+
 ProbedArray probedArray(const isopoint_array& array, const isopoint_probe_result& result,
-  std::size_t sampleCount, std::size_t placeCount, const ProbeOptions& options)
+  std::size_t sampleCount, const ExcludedItems& excluded, std::size_t placeCount,
+  const ProbeOptions& options)
 {
   const ArrayReader reader(&array, "values");
   reader.require(sampleCount, reader.components());
@@ -69,6 +90,11 @@ ProbedArray probedArray(const isopoint_array& array, const isopoint_probe_result
           numbers[i] = static_cast<double>(reader.at<T>(ids[i], component));
         }
       };
+      if (!std::is_floating_point_v<T>)
+      {
+        probed.range = foundOnce(reader.components(),
+          [reader, excluded](int component) { return rangeOf<T>(reader, excluded, component); });
+      }
       if (keepsType)
       {
         probed.writeNearest = [reader, values = static_cast<T*>(result.values),
@@ -143,8 +169,8 @@ ProbeOptions probeOptionsFrom(const isopoint_probe_options* given)
 }
 
 std::vector<ProbedArray> probedArrays(const isopoint_array* arrays, std::int64_t count,
-  const isopoint_probe_result* results, std::size_t sampleCount, std::size_t placeCount,
-  const ProbeOptions& options)
+  const isopoint_probe_result* results, std::size_t sampleCount, const ExcludedItems& excluded,
+  std::size_t placeCount, const ProbeOptions& options)
 {
   if (count < 0)
   {
@@ -158,7 +184,8 @@ std::vector<ProbedArray> probedArrays(const isopoint_array* arrays, std::int64_t
   std::vector<ProbedArray> probed;
   for (std::int64_t i = 0; i < count; ++i)
   {
-    probed.push_back(probedArray(arrays[i], results[i], sampleCount, placeCount, options));
+    probed.push_back(
+      probedArray(arrays[i], results[i], sampleCount, excluded, placeCount, options));
   }
   return probed;
 }

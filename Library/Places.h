@@ -9,17 +9,21 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace isopoint
 {
 
+/// Which samples the caller excluded; null: none.
+using ExcludedItems = std::shared_ptr<const std::vector<bool>>;
+
 /// The arguments of isopoint_probe(), checked. @throws UsageError
 std::vector<Vector> placesFrom(const isopoint_array* places);
 ProbeOptions probeOptionsFrom(const isopoint_probe_options* given);
 std::vector<ProbedArray> probedArrays(const isopoint_array* arrays, std::int64_t count,
-  const isopoint_probe_result* results, std::size_t sampleCount, std::size_t placeCount,
-  const ProbeOptions& options);
+  const isopoint_probe_result* results, std::size_t sampleCount, const ExcludedItems& excluded,
+  std::size_t placeCount, const ProbeOptions& options);
 
 } // namespace isopoint
 
@@ -28,6 +32,7 @@ struct isopoint_neighborhoods
   isopoint::Execution execution;
   isopoint::Neighborhoods found;
   std::size_t sampleCount;
+  isopoint::ExcludedItems excluded;
 
   /// See isopoint_get_weights(). @throws isopoint::UsageError, std::bad_alloc
   isopoint_weights weights();

@@ -4,10 +4,14 @@
 #include "Core/Contour.h"
 #include "Core/Failure.h"
 #include "Library/Arrays.h"
+#include "Library/Places.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace isopoint
 {
@@ -63,6 +67,21 @@ public:
       counts.excluded += this->isExcluded(id) ? 1 : 0;
     }
     return counts;
+  }
+
+  /// @throws std::bad_alloc
+  ExcludedItems excludedItems() const
+  {
+    if (!this->Excluded)
+    {
+      return nullptr;
+    }
+    std::vector<bool> items(this->count());
+    for (std::size_t id = 0; id < items.size(); ++id)
+    {
+      items[id] = this->isExcluded(id);
+    }
+    return std::make_shared<const std::vector<bool>>(std::move(items));
   }
 
   template <class TCoordinate, class TValue>

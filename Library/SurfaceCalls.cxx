@@ -34,12 +34,14 @@ using isopoint::Message;
 static_assert(isopoint::haveSameNumbers(
   { Message::SkippedSamples, Message::NoSamples, Message::ConstantValues, Message::IsovalueOutside,
     Message::TooFewSamples, Message::AllInGaps, Message::NoCrossing, Message::PointsWithoutFit,
-    Message::SplatsApart, Message::BeyondFloat, Message::NoIsovalues, Message::OnlyAtSamples },
+    Message::SplatsApart, Message::BeyondFloat, Message::NoIsovalues, Message::OnlyAtSamples,
+    Message::RoundedPositions, Message::DifferentValues, Message::IsovalueAtEnd },
   { ISOPOINT_MESSAGE_SKIPPED_SAMPLES, ISOPOINT_MESSAGE_NO_SAMPLES, ISOPOINT_MESSAGE_CONSTANT_VALUES,
     ISOPOINT_MESSAGE_ISOVALUE_OUTSIDE, ISOPOINT_MESSAGE_TOO_FEW_SAMPLES,
     ISOPOINT_MESSAGE_ALL_IN_GAPS, ISOPOINT_MESSAGE_NO_CROSSING, ISOPOINT_MESSAGE_POINTS_WITHOUT_FIT,
     ISOPOINT_MESSAGE_SPLATS_APART, ISOPOINT_MESSAGE_BEYOND_FLOAT, ISOPOINT_MESSAGE_NO_ISOVALUES,
-    ISOPOINT_MESSAGE_ONLY_AT_SAMPLES }));
+    ISOPOINT_MESSAGE_ONLY_AT_SAMPLES, ISOPOINT_MESSAGE_ROUNDED_POSITIONS,
+    ISOPOINT_MESSAGE_DIFFERENT_VALUES, ISOPOINT_MESSAGE_ISOVALUE_AT_END }));
 
 /// Whether options have the same effect.
 bool areSame(const isopoint::Options& first, const isopoint::Options& second)

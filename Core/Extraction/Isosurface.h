@@ -208,6 +208,7 @@ std::vector<CoincidentSamples> coincidentEnds(
       {
         result[group].ids.push_back(tree.samples[i].id);
       }
+      result[group].haveOneValue = leaf.minimum == leaf.maximum;
     });
   std::sort(result.begin(), result.end(),
     [](const CoincidentSamples& a, const CoincidentSamples& b)

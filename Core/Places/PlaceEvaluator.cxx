@@ -81,7 +81,7 @@ void PlaceEvaluator::evaluate(std::size_t place, const NearbySamples& around, st
     {
       this->writeNothing(array, place);
     }
-    else if (this->Options.method == PlaceMethod::Nearest)
+    else if (this->Options.method == PlaceMethod::Nearest || array.isNearest)
     {
       this->writeNearest(array, place, around, isOutside);
     }
@@ -100,7 +100,7 @@ void PlaceEvaluator::evaluate(std::size_t place, const NearbySamples& around, st
         this->Fitter.prepare(around.offsets, around.fitted, around.reach);
         this->IsPrepared = true;
       }
-      this->apply(array, place, this->Fitter);
+      this->apply(array, place, around.fitted, this->Fitter);
     }
   }
 }
@@ -181,14 +181,31 @@ void PlaceEvaluator::evaluatePresent(
     return;
   }
   this->PresentFitter.prepare(this->Present.offsets, fitted, around.reach);
-  this->apply(array, place, this->PresentFitter);
+  this->apply(array, place, fitted, this->PresentFitter);
 }
 
-void PlaceEvaluator::apply(const ProbedArray& array, std::size_t place, PlaceFitter& fitter)
+void PlaceEvaluator::apply(
+  const ProbedArray& array, std::size_t place, std::size_t fitted, PlaceFitter& fitter)
 {
   const auto components = static_cast<std::size_t>(array.components);
-  fitter.apply(this->Values, array.valueError, array.values + components * place,
+  this->Ranges.clear();
+  for (std::size_t c = 0; array.range && c < components; ++c)
+  {
+    const double* const first = &this->Values[c][0];
+    const auto [least, greatest] = std::minmax_element(first, first + fitted);
+    this->Ranges.emplace_back(*least, *greatest);
+  }
+  double* const values = array.values + components * place;
+  fitter.apply(this->Values, array.valueError, values,
     array.gradients ? array.gradients + 3 * components * place : nullptr);
+  for (std::size_t c = 0; c < this->Ranges.size(); ++c)
+  {
+    if (values[c] < this->Ranges[c].first || values[c] > this->Ranges[c].second)
+    {
+      const auto [least, greatest] = array.range(static_cast<int>(c));
+      values[c] = std::clamp(values[c], least, greatest);
+    }
+  }
 }
 
 void PlaceEvaluator::writeOutside(const ProbedArray& array, std::size_t place) const

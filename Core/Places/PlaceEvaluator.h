@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace isopoint
@@ -71,7 +72,7 @@ private:
   std::uint8_t kindsOf(const std::vector<Vector>& offsets) const;
   bool read(const ProbedArray& array, const NearbySamples& around);
   void evaluatePresent(const ProbedArray& array, std::size_t place, const NearbySamples& around);
-  void apply(const ProbedArray& array, std::size_t place, PlaceFitter& fitter);
+  void apply(const ProbedArray& array, std::size_t place, std::size_t fitted, PlaceFitter& fitter);
   void writeOutside(const ProbedArray& array, std::size_t place) const;
   void writeNothing(const ProbedArray& array, std::size_t place) const;
   void writeNearest(
@@ -83,8 +84,9 @@ private:
   PlaceFitter PresentFitter; // of an array that lacks values
   bool IsPrepared = false;   // the fitter, for the place
   NearbySamples Present;
-  std::vector<SampleNumbers> Values; // by component, then position
-  std::vector<double> Numbers;       // by id
+  std::vector<SampleNumbers> Values;             // by component, then position
+  std::vector<double> Numbers;                   // by id
+  std::vector<std::pair<double, double>> Ranges; // of the values fitted to, by component
 };
 
 } // namespace isopoint

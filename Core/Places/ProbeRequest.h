@@ -8,6 +8,10 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
 
 namespace isopoint
 {
@@ -37,12 +41,40 @@ struct ProbedArray
   /// Reads one component of samples, given by their ids.
   std::function<void(const std::uint64_t* ids, std::size_t count, int component, double* numbers)>
     read;
+  /// If not empty, the range of a component in all samples, within which values stay. Called when
+  /// fits leave the range of the samples around a place.
+  std::function<std::pair<double, double>(int component)> range;
+  bool isNearest = false;      // as by PlaceMethod::Nearest, whatever the method
   double* values = nullptr;    // by place, then component
   double* gradients = nullptr; // likewise, three each; null: none
   /// If not empty, called instead of writing values, with the id of the nearest sample whose
   /// components are all finite, or null if there is none or the place is outside: for
-  /// PlaceMethod::Nearest, which keeps types. On one rank only.
+  /// PlaceMethod::Nearest, which keeps types. On ranks, ids number the items of all ranks.
   std::function<void(std::size_t place, const std::uint64_t* id)> writeNearest;
 };
+
+/// A function for ProbedArray::range that calls find(component) for all components when it is first
+/// called. Not for ranks, where finding a range is collective.
+template <class Find>
+auto foundOnce(int components, const Find& find)
+{
+  struct Ranges
+  {
+    std::once_flag found;
+    std::vector<std::pair<double, double>> all;
+  };
+  return [ranges = std::make_shared<Ranges>(), components, find](int component)
+  {
+    std::call_once(ranges->found,
+      [&]()
+      {
+        for (int c = 0; c < components; ++c)
+        {
+          ranges->all.push_back(find(c));
+        }
+      });
+    return ranges->all[static_cast<std::size_t>(component)];
+  };
+}
 
 } // namespace isopoint

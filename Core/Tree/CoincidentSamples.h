@@ -16,6 +16,7 @@ namespace isopoint
 struct CoincidentSamples
 {
   std::vector<std::uint64_t> ids; // ascending, at least two
+  bool haveOneValue = true;
 };
 
 /// The mean of coincident samples' values, summed by ascending id and clamped to their range.

@@ -173,9 +173,8 @@ void vtkIsopointCut::MovePoints(const isopoint::Execution& execution,
   for (int k = 0; k < slice->GetPointData()->GetNumberOfArrays(); ++k)
   {
     vtkDataArray* const array = slice->GetPointData()->GetArray(k);
-    const bool isId =
-      slice->GetPointData()->IsArrayAnAttribute(k) == vtkDataSetAttributes::PEDIGREEIDS;
-    if (array && array->GetName() && !isId)
+    const int attribute = slice->GetPointData()->IsArrayAnAttribute(k);
+    if (array && array->GetName() && !vtkHasIsopointIds(array, attribute))
     {
       arrays.emplace_back(ends.GetAttributes()->GetArray(array->GetName()), array);
     }

@@ -121,7 +121,7 @@ void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkDataS
     const vtkSmartPointer<vtkAbstractArray> result =
       vtkNewArrayLike(array, static_cast<vtkIdType>(isopoint::countIsopoints(surfaces)));
     auto* const numbers = vtkDataArray::SafeDownCast(array);
-    const bool isNumeric = numbers && attribute != vtkDataSetAttributes::PEDIGREEIDS;
+    const bool isNumeric = numbers && !vtkHasIsopointIds(numbers, attribute);
     vtkIdType firstTuple = 0;
     for (const ExtractedIsosurface& extracted : surfaces)
     {

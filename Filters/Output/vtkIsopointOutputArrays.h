@@ -22,8 +22,8 @@ class vtkPolyData;
 // Functions that add arrays do so for the isopoints of all surfaces, one surface after the other,
 // and throw std::bad_alloc.
 
-/// Interpolates the input's arrays. Integers are rounded to the nearest; pedigree ids and strings
-/// are copied from the nearer end. Active attributes remain active. Global ids, ghost arrays,
+/// Interpolates the input's arrays. Integers are rounded to the nearest; ids and strings are copied
+/// from the nearer end. Active attributes remain active. Global ids, ghost arrays,
 /// arrays not as long as the contoured array, and the contoured array are dropped.
 void vtkInterpolateIsopointArrays(const isopoint::Execution& execution, vtkDataSetAttributes* input,
   vtkDataArray* contoured, const std::vector<isopoint::ExtractedIsosurface>& surfaces,

@@ -232,8 +232,8 @@ void vtkMakeIsopointGrid(const vtkIsopointGrid& grid, const int extent[6], vtkIm
   output->SetExtent(const_cast<int*>(extent));
 }
 
-void vtkAddIsopointTuples(
-  vtkDataArray* all, vtkIdType first, vtkIdType count, int attribute, vtkDataSetAttributes* output)
+void vtkAddIsopointTuples(vtkAbstractArray* all, vtkIdType first, vtkIdType count, int attribute,
+  vtkDataSetAttributes* output)
 {
   vtkSmartPointer<vtkAbstractArray> own = all;
   if (count != all->GetNumberOfTuples())

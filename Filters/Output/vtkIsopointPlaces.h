@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-class vtkDataArray;
+class vtkAbstractArray;
 class vtkDataObject;
 class vtkDataSet;
 class vtkDataSetAttributes;
@@ -68,8 +68,8 @@ void vtkMakeIsopointGrid(const vtkIsopointGrid& grid, const int extent[6], vtkIm
 /// Adds `count` tuples of an array, or the array itself if it has no more.
 /// @param attribute a vtkDataSetAttributes::AttributeTypes that the array becomes, or -1
 /// @throws std::bad_alloc
-void vtkAddIsopointTuples(
-  vtkDataArray* all, vtkIdType first, vtkIdType count, int attribute, vtkDataSetAttributes* output);
+void vtkAddIsopointTuples(vtkAbstractArray* all, vtkIdType first, vtkIdType count, int attribute,
+  vtkDataSetAttributes* output);
 
 /// Adds an array of char: 0 at null points, 1 at others.
 /// @param areNull by point

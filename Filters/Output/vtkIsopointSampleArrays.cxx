@@ -2,27 +2,34 @@
 #include "Output/vtkIsopointSampleArrays.h"
 
 #include "Common/vtkIsopointArrays.h"
+#include "Core/Base/Lists.h"
 #include "Core/Base/ProcessGroup.h"
 #include "Core/Contour.h"
 #include "Core/Ranks/ByteBuffer.h"
 #include "Input/vtkIsopointNumbers.h"
+#include "Output/vtkIsopointArrayBytes.h"
 #include "Output/vtkIsopointOutputArrays.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <memory>
+#include <cstdint>
+#include <limits>
+#include <utility>
 
 namespace
 {
 
 using Arrays = std::vector<vtkIsopointSampleArray>;
 
-/// The arrays of a block; those without numbers for all samples have no components.
-Arrays arraysOf(const vtkIsopointBlock& block)
+/// The arrays of a block; those without values for all samples have no components.
+Arrays arraysOf(const vtkIsopointBlock& block, const std::vector<std::string>& nearest)
 {
   Arrays arrays;
   vtkDataSetAttributes* const attributes = block.Attributes;
@@ -30,16 +37,20 @@ Arrays arraysOf(const vtkIsopointBlock& block)
   {
     vtkAbstractArray* const array = attributes->GetAbstractArray(i);
     const int attribute = attributes->IsArrayAnAttribute(i);
-    if (!array->GetName() || vtkIsGhostArrayName(array->GetName()) ||
-        attribute == vtkDataSetAttributes::GLOBALIDS ||
-        attribute == vtkDataSetAttributes::PEDIGREEIDS)
+    if (!array->GetName() || vtkIsGhostArrayName(array->GetName()))
     {
       continue;
     }
-    const bool isUsed =
-      vtkDataArray::SafeDownCast(array) && array->GetNumberOfTuples() == block.GetNumberOfSamples();
+    const bool isText = array->GetDataType() == VTK_STRING;
+    const bool isUsed = (vtkDataArray::SafeDownCast(array) || isText) &&
+                        array->GetNumberOfTuples() == block.GetNumberOfSamples();
+    const bool isListed =
+      std::find(nearest.begin(), nearest.end(), array->GetName()) != nearest.end();
+    // Several places may have the id of one sample, so these are no global ids.
+    const bool areGlobal = attribute == vtkDataSetAttributes::GLOBALIDS;
     arrays.push_back({ array->GetName(), isUsed ? array->GetNumberOfComponents() : 0,
-      array->GetDataType(), attribute, !vtkIsReal(array), {} });
+      array->GetDataType(), areGlobal ? -1 : attribute, !vtkIsReal(array),
+      isText || isListed || vtkHasIsopointIds(array, attribute), {} });
   }
   return arrays;
 }
@@ -56,7 +67,9 @@ Arrays common(Arrays all, const Arrays& others)
   for (vtkIsopointSampleArray& array : all)
   {
     const auto other = find(rest, array);
-    if (other == rest.end() || other->Components != array.Components)
+    const bool isText = array.Type == VTK_STRING;
+    if (other == rest.end() || other->Components != array.Components ||
+        (other->Type == VTK_STRING) != isText)
     {
       array.Components = 0;
     }
@@ -65,6 +78,7 @@ Arrays common(Arrays all, const Arrays& others)
       array.Type = other->Type == array.Type ? array.Type : VTK_DOUBLE;
       array.Attribute = other->Attribute == array.Attribute ? array.Attribute : -1;
       array.AreIntegers = array.AreIntegers && other->AreIntegers;
+      array.IsNearest = array.IsNearest || other->IsNearest;
     }
   }
   for (vtkIsopointSampleArray& array : rest)
@@ -89,6 +103,7 @@ Arrays commonOfRanks(isopoint::ProcessGroup& processes, const Arrays& own, bool 
       isopoint::append(bytes, number);
     }
     isopoint::append(bytes, array.AreIntegers);
+    isopoint::append(bytes, array.IsNearest);
   }
   const std::vector<std::uint64_t> haveBlocks = processes.gather(std::uint64_t{ hasBlocks });
   const std::vector<isopoint::ByteBuffer> all = processes.gather(bytes);
@@ -106,6 +121,7 @@ Arrays commonOfRanks(isopoint::ProcessGroup& processes, const Arrays& own, bool 
       array.Type = reader.read<int>();
       array.Attribute = reader.read<int>();
       array.AreIntegers = reader.read<bool>();
+      array.IsNearest = reader.read<bool>();
     }
     if (haveBlocks[rank] != 0)
     {
@@ -141,7 +157,7 @@ vtkIsopointSampleArray vtkFindIsopointArray(isopoint::ProcessGroup& processes,
     {
       vtkAbstractArray* const array = choice.Find(block.Attributes);
       return Arrays{ { "", array->GetNumberOfComponents(), array->GetDataType(), -1,
-        !vtkIsReal(array), {} } };
+        !vtkIsReal(array), false, {} } };
     }).front();
   for (const vtkIsopointBlock& block : blocks)
   {
@@ -151,10 +167,12 @@ vtkIsopointSampleArray vtkFindIsopointArray(isopoint::ProcessGroup& processes,
 }
 
 std::vector<vtkIsopointSampleArray> vtkListIsopointArrays(isopoint::ProcessGroup& processes,
-  const std::vector<vtkIsopointBlock>& blocks, std::set<std::string>& dropped)
+  const std::vector<vtkIsopointBlock>& blocks, const std::vector<std::string>& nearest,
+  std::set<std::string>& dropped)
 {
   Arrays found;
-  for (vtkIsopointSampleArray& array : commonOfBlocks(processes, blocks, arraysOf))
+  for (vtkIsopointSampleArray& array : commonOfBlocks(processes, blocks,
+         [&](const vtkIsopointBlock& block) { return arraysOf(block, nearest); }))
   {
     if (array.Components == 0)
     {
@@ -163,7 +181,7 @@ std::vector<vtkIsopointSampleArray> vtkListIsopointArrays(isopoint::ProcessGroup
     }
     for (const vtkIsopointBlock& block : blocks)
     {
-      array.Parts.push_back(block.Attributes->GetArray(array.Name.c_str()));
+      array.Parts.push_back(block.Attributes->GetAbstractArray(array.Name.c_str()));
     }
     found.push_back(array);
   }
@@ -184,7 +202,11 @@ isopoint::Message vtkDescribeLeftOut(const std::set<std::string>& names, const s
 void vtkReadIsopointArray(const vtkIsopointSampleArray& array,
   const std::vector<vtkIsopointBlock>& blocks, isopoint::ProbedArray& probed)
 {
-  std::vector<vtkIsopointNumbers> parts(array.Parts.begin(), array.Parts.end());
+  std::vector<vtkIsopointNumbers> parts;
+  for (vtkAbstractArray* const part : array.Parts)
+  {
+    parts.emplace_back(vtkDataArray::SafeDownCast(part));
+  }
   probed.components = array.Components;
   probed.valueError = array.AreIntegers ? isopoint::roundingError : 0.0;
   probed.read = [parts, sampleIds = vtkIsopointSampleIds(blocks)](
@@ -212,97 +234,242 @@ double heldBy(vtkDataArray* array, double number)
   return isHeld ? std::trunc(number) : 0.0;
 }
 
-/// Memory for an array at places: doubles unless samples can be copied.
-/// @param type of the result
-vtkSmartPointer<vtkDataArray> newArrayAt(
-  vtkIdType places, const vtkIsopointSampleArray& array, int type, bool isAlone)
+/// @throws std::bad_alloc
+vtkSmartPointer<vtkAbstractArray> newArray(
+  const vtkIsopointSampleArray& array, int type, std::size_t tuples)
 {
-  // Bits share bytes, so that threads cannot write them; ranks exchange doubles.
-  const bool isCopied = type != VTK_BIT && isAlone;
-  auto result = vtkSmartPointer<vtkDataArray>::Take(
-    vtkDataArray::CreateDataArray(isCopied ? type : VTK_DOUBLE));
+  auto result = vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(type));
   result->SetName(array.Name.c_str());
   result->SetNumberOfComponents(array.Components);
   if (!array.Parts.empty())
   {
     result->CopyComponentNames(array.Parts.front());
   }
-  vtkAllocateTuples(result, places);
+  vtkAllocateTuples(result, static_cast<vtkIdType>(tuples));
   return result;
 }
 
-/// What to probe for an array.
-isopoint::ProbedArray probedArray(const vtkIsopointSampleArray& array,
-  const std::vector<vtkIsopointBlock>& blocks, double nothing, vtkDataArray* result)
+void copyTuple(vtkAbstractArray* from, std::size_t sample, vtkAbstractArray* to, std::size_t place)
 {
-  isopoint::ProbedArray probed;
-  vtkReadIsopointArray(array, blocks, probed);
-  if (auto* const doubles = vtkAOSDataArrayTemplate<double>::FastDownCast(result))
+  const auto source = static_cast<vtkIdType>(sample);
+  const auto target = static_cast<vtkIdType>(place);
+  if (from->GetDataType() == to->GetDataType())
   {
-    probed.values = doubles->GetPointer(0);
-    return probed;
+    to->SetTuple(target, source, from); // double does not hold all integers of 64 bits
+    return;
   }
-  probed.writeNearest = [result, parts = array.Parts, sampleIds = vtkIsopointSampleIds(blocks),
-                          nothing = heldBy(result, nothing)](
-                          std::size_t place, const std::uint64_t* id)
+  for (int component = 0; component < to->GetNumberOfComponents(); ++component)
   {
-    const auto to = static_cast<vtkIdType>(place);
-    if (id)
+    vtkSetIsopointNumber(vtkDataArray::SafeDownCast(to), target, component,
+      vtkDataArray::SafeDownCast(from)->GetComponent(source, component));
+  }
+}
+
+using Ids = std::vector<std::uint64_t>;
+constexpr std::uint64_t noSample = std::numeric_limits<std::uint64_t>::max();
+
+/// Reads an array at samples, which other ranks may have.
+class SampleValues
+{
+public:
+  /// Collective.
+  /// @param ids of the samples, or noSample
+  SampleValues(isopoint::ProcessGroup& processes, const vtkIsopointSampleArray& array,
+    const std::vector<vtkIsopointBlock>& blocks, const Ids& ids)
+    : Parts(array.Parts.begin(), array.Parts.end())
+    , Own(blocks)
+  {
+    if (processes.size() > 1)
     {
-      const auto [block, tuple] = sampleIds.Find(static_cast<std::size_t>(*id));
-      result->SetTuple(to, static_cast<vtkIdType>(tuple), parts[block]);
+      this->Fetch(processes, array, ids);
+    }
+  }
+
+  void CopyTo(vtkAbstractArray* array, std::size_t place, std::uint64_t id) const
+  {
+    if (this->Firsts.empty())
+    {
+      const auto [block, tuple] = this->Own.Find(static_cast<std::size_t>(id));
+      copyTuple(this->Parts[block], tuple, array, place);
       return;
     }
-    for (int component = 0; component < result->GetNumberOfComponents(); ++component)
+    const auto index = static_cast<std::uint64_t>(
+      std::lower_bound(this->Fetched.begin(), this->Fetched.end(), id) - this->Fetched.begin());
+    const std::size_t rank = isopoint::rankAt(this->Firsts, index);
+    copyTuple(this->Parts[rank], index - this->Firsts[rank], array, place);
+  }
+
+private:
+  void Fetch(isopoint::ProcessGroup& processes, const vtkIsopointSampleArray& array, const Ids& ids)
+  {
+    this->Fetched = ids;
+    isopoint::keepUnique(this->Fetched);
+    if (!this->Fetched.empty() && this->Fetched.back() == noSample)
     {
-      vtkSetIsopointNumber(result, to, component, nothing);
+      this->Fetched.pop_back();
     }
-  };
+    std::vector<Ids> wanted; // by rank; ids count from its first sample
+    std::uint64_t begin = 0;
+    auto next = this->Fetched.begin();
+    for (const std::uint64_t count : processes.gather(std::uint64_t{ this->Own.GetCount() }))
+    {
+      this->Firsts.push_back(static_cast<std::uint64_t>(next - this->Fetched.begin()));
+      wanted.emplace_back();
+      for (; next != this->Fetched.end() && *next < begin + count; ++next)
+      {
+        wanted.back().push_back(*next - begin);
+      }
+      begin += count;
+    }
+    std::vector<isopoint::ByteBuffer> answers;
+    for (const Ids& asked : processes.exchange(wanted))
+    {
+      const vtkSmartPointer<vtkAbstractArray> values = newArray(array, array.Type, asked.size());
+      for (std::size_t i = 0; i < asked.size(); ++i)
+      {
+        const auto [block, tuple] = this->Own.Find(static_cast<std::size_t>(asked[i]));
+        copyTuple(this->Parts[block], tuple, values, i);
+      }
+      vtkNew<vtkPointData> attributes;
+      attributes->AddArray(values);
+      answers.push_back(vtkWriteIsopointArrays(attributes));
+    }
+    this->Parts.clear();
+    for (const isopoint::ByteBuffer& bytes : processes.exchange(answers))
+    {
+      this->Parts.emplace_back(vtkReadIsopointArrays(bytes)->GetAbstractArray(0));
+    }
+  }
+
+  std::vector<vtkSmartPointer<vtkAbstractArray>> Parts; // by block, or by rank
+  vtkIsopointSampleIds Own;
+  Ids Fetched; // ascending
+  Ids Firsts;  // of the ranks in these; empty for one rank
+};
+
+/// The values of an array at samples. Numbers are `nothing` where there is none.
+vtkSmartPointer<vtkAbstractArray> valuesAt(isopoint::ProcessGroup& processes,
+  const vtkIsopointSampleArray& array, const std::vector<vtkIsopointBlock>& blocks, const Ids& ids,
+  double nothing)
+{
+  const SampleValues values(processes, array, blocks, ids);
+  vtkSmartPointer<vtkAbstractArray> result = newArray(array, array.Type, ids.size());
+  auto* const numbers = vtkDataArray::SafeDownCast(result);
+  const double held = numbers ? heldBy(numbers, nothing) : 0.0;
+  for (std::size_t place = 0; place < ids.size(); ++place)
+  {
+    if (ids[place] != noSample)
+    {
+      values.CopyTo(result, place, ids[place]);
+      continue;
+    }
+    for (int component = 0; numbers && component < array.Components; ++component)
+    {
+      vtkSetIsopointNumber(numbers, static_cast<vtkIdType>(place), component, held);
+    }
+  }
+  return result;
+}
+
+/// What to probe for the nearest samples of an array.
+isopoint::ProbedArray probedIds(const vtkIsopointSampleArray& array,
+  const std::vector<vtkIsopointBlock>& blocks, std::uint64_t* ids)
+{
+  isopoint::ProbedArray probed;
+  if (!array.AreIntegers)
+  {
+    vtkReadIsopointArray(array, blocks, probed);
+  }
+  else // all are finite, as is text
+  {
+    probed.read = [](const std::uint64_t*, std::size_t count, int, double* numbers)
+    { std::fill_n(numbers, count, 0.0); };
+  }
+  probed.isNearest = true;
+  probed.writeNearest = [ids](std::size_t place, const std::uint64_t* id)
+  { ids[place] = id ? *id : noSample; };
   return probed;
 }
 
-/// An array in a type. @throws std::bad_alloc
-vtkSmartPointer<vtkDataArray> converted(const vtkSmartPointer<vtkDataArray>& array, int type)
+/// The range of a component in the samples of this rank that are in use.
+std::pair<double, double> rangeOf(
+  const vtkIsopointSampleArray& array, const std::vector<vtkIsopointBlock>& blocks, int component)
 {
-  if (array->GetDataType() == type)
+  double least = std::numeric_limits<double>::infinity();
+  double greatest = -least;
+  for (std::size_t block = 0; block < blocks.size(); ++block)
   {
-    return array;
-  }
-  auto result = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
-  result->SetName(array->GetName());
-  result->SetNumberOfComponents(array->GetNumberOfComponents());
-  result->CopyComponentNames(array);
-  vtkAllocateTuples(result, array->GetNumberOfTuples());
-  for (vtkIdType i = 0; i < result->GetNumberOfTuples(); ++i)
-  {
-    for (int component = 0; component < result->GetNumberOfComponents(); ++component)
+    auto* const part = vtkDataArray::SafeDownCast(array.Parts[block]);
+    vtkUnsignedCharArray* const ghosts = blocks[block].Ghosts;
+    for (vtkIdType i = 0; i < part->GetNumberOfTuples(); ++i)
     {
-      vtkSetIsopointNumber(result, i, component, heldBy(result, array->GetComponent(i, component)));
+      if (!ghosts || (ghosts->GetValue(i) & vtkIsopointBlock::Excluding) == 0)
+      {
+        const double number = part->GetComponent(i, component);
+        least = std::min(least, number);
+        greatest = std::max(greatest, number);
+      }
     }
   }
-  return result;
+  return { least, greatest };
+}
+
+/// Limits the values of integers to the range of all samples. Collective.
+void limit(isopoint::ProcessGroup& processes, const vtkIsopointSampleArray& array,
+  const std::vector<vtkIsopointBlock>& blocks, isopoint::ProbedArray& probed)
+{
+  if (processes.size() == 1)
+  {
+    probed.range = isopoint::foundOnce(array.Components,
+      [&array, &blocks](int component) { return rangeOf(array, blocks, component); });
+    return;
+  }
+  std::vector<std::pair<double, double>> ranges;
+  for (int component = 0; component < array.Components; ++component)
+  {
+    const auto [least, greatest] = rangeOf(array, blocks, component);
+    ranges.emplace_back(isopoint::fromOrderedKey(~processes.maximum(~isopoint::orderedKey(least))),
+      isopoint::fromOrderedKey(processes.maximum(isopoint::orderedKey(greatest))));
+  }
+  probed.range = [ranges](int component) { return ranges[static_cast<std::size_t>(component)]; };
 }
 
 } // namespace
 
-std::vector<vtkSmartPointer<vtkDataArray>> vtkProbeIsopointArrays(
-  const std::vector<vtkIsopointSampleArray>& arrays, const std::vector<vtkIsopointBlock>& blocks,
-  const isopoint::ProbeOptions& options, std::size_t places, bool isAlone,
-  const std::function<void(const std::vector<isopoint::ProbedArray>&)>& probe)
+std::vector<vtkSmartPointer<vtkAbstractArray>> vtkProbeIsopointArrays(
+  isopoint::ProcessGroup& processes, const std::vector<vtkIsopointSampleArray>& arrays,
+  const std::vector<vtkIsopointBlock>& blocks, const isopoint::ProbeOptions& options,
+  std::size_t places, const std::function<void(const std::vector<isopoint::ProbedArray>&)>& probe)
 {
-  std::vector<vtkSmartPointer<vtkDataArray>> results;
+  std::vector<vtkSmartPointer<vtkAbstractArray>> results;
   std::vector<isopoint::ProbedArray> probed;
-  const auto typeOf = [&](const vtkIsopointSampleArray& array)
-  { return options.method == isopoint::PlaceMethod::Nearest ? array.Type : VTK_DOUBLE; };
-  for (const vtkIsopointSampleArray& array : arrays)
+  std::vector<Ids> ids(arrays.size()); // of the nearest samples
+  for (std::size_t i = 0; i < arrays.size(); ++i)
   {
-    results.push_back(newArrayAt(static_cast<vtkIdType>(places), array, typeOf(array), isAlone));
-    probed.push_back(probedArray(array, blocks, options.outsideNumber, results.back()));
+    const vtkIsopointSampleArray& array = arrays[i];
+    if (array.IsNearest || options.method == isopoint::PlaceMethod::Nearest)
+    {
+      ids[i].assign(places, noSample);
+      results.emplace_back();
+      probed.push_back(probedIds(array, blocks, ids[i].data()));
+      continue;
+    }
+    results.push_back(newArray(array, VTK_DOUBLE, places));
+    vtkReadIsopointArray(array, blocks, probed.emplace_back());
+    probed.back().values =
+      vtkAOSDataArrayTemplate<double>::FastDownCast(results.back())->GetPointer(0);
+    if (array.AreIntegers)
+    {
+      limit(processes, array, blocks, probed.back());
+    }
   }
   probe(probed);
   for (std::size_t i = 0; i < results.size(); ++i)
   {
-    results[i] = converted(results[i], typeOf(arrays[i]));
+    if (!results[i])
+    {
+      results[i] = valuesAt(processes, arrays[i], blocks, ids[i], options.outsideNumber);
+    }
   }
   return results;
 }

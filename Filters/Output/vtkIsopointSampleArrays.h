@@ -7,7 +7,6 @@
 #include "Input/vtkIsopointBlocks.h"
 
 #include "vtkSmartPointer.h"
-#include "vtkType.h"
 
 #include <cstddef>
 #include <functional>
@@ -19,6 +18,7 @@ namespace isopoint
 {
 class ProcessGroup;
 }
+class vtkAbstractArray;
 class vtkDataArray;
 
 /// An array of the samples of all blocks.
@@ -29,15 +29,18 @@ struct vtkIsopointSampleArray
   int Type = 0;       // of its values; double if blocks have different types
   int Attribute = -1; // a vtkDataSetAttributes::AttributeTypes, or -1
   bool AreIntegers = false;
-  std::vector<vtkDataArray*> Parts; // by block of this rank
+  bool IsNearest = false;               // takes the value of the nearest sample, and keeps its type
+  std::vector<vtkAbstractArray*> Parts; // by block of this rank
 };
 
-/// Lists the numeric arrays that all blocks of all ranks have with as many components, in the order
-/// of the first block. Ghost marks and ids are never among them. Collective.
+/// Lists the arrays of numbers and strings that all blocks of all ranks have with as many
+/// components, in the order of the first block. Ghost marks are never among them. Collective.
+/// @param nearest names of arrays that take the nearest value, besides ids and strings
 /// @param dropped receives the names of other arrays
 /// @throws what isopoint::ProcessGroup throws
 std::vector<vtkIsopointSampleArray> vtkListIsopointArrays(isopoint::ProcessGroup& processes,
-  const std::vector<vtkIsopointBlock>& blocks, std::set<std::string>& dropped);
+  const std::vector<vtkIsopointBlock>& blocks, const std::vector<std::string>& nearest,
+  std::set<std::string>& dropped);
 
 /// The chosen array of the blocks of all ranks, without its name; without components if their
 /// number differs. Collective.
@@ -49,14 +52,14 @@ vtkIsopointSampleArray vtkFindIsopointArray(isopoint::ProcessGroup& processes,
 /// @param rule which arrays are not
 isopoint::Message vtkDescribeLeftOut(const std::set<std::string>& names, const std::string& rule);
 
-/// The values of arrays at places: double, or for PlaceMethod::Nearest of the type of the array.
-/// @param isAlone whether the samples are those of this process
+/// The values of arrays at places: double, or for PlaceMethod::Nearest, and arrays that take the
+/// nearest value, of the type of the array. Collective.
 /// @param probe calls IsosurfaceExtractor::probe()
 /// @throws std::bad_alloc, and what probe throws
-std::vector<vtkSmartPointer<vtkDataArray>> vtkProbeIsopointArrays(
-  const std::vector<vtkIsopointSampleArray>& arrays, const std::vector<vtkIsopointBlock>& blocks,
-  const isopoint::ProbeOptions& options, std::size_t places, bool isAlone,
-  const std::function<void(const std::vector<isopoint::ProbedArray>&)>& probe);
+std::vector<vtkSmartPointer<vtkAbstractArray>> vtkProbeIsopointArrays(
+  isopoint::ProcessGroup& processes, const std::vector<vtkIsopointSampleArray>& arrays,
+  const std::vector<vtkIsopointBlock>& blocks, const isopoint::ProbeOptions& options,
+  std::size_t places, const std::function<void(const std::vector<isopoint::ProbedArray>&)>& probe);
 
 /// Replaces the numbers of an array by those of another one that are finite, integers rounded.
 void vtkReplaceIsopointNumbers(vtkDataArray* found, vtkDataArray* array);

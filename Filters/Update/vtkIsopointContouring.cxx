@@ -37,7 +37,12 @@ void vtkIsopointContouring::Run(const vtkIsopointOptions& options, vtkInformatio
 {
   this->Options = options; // they may change meanwhile
   this->Update.Run(
-    vtkDataObject::GetData(outputInfo), [this]() { this->Report = isopoint::Report(); },
+    vtkDataObject::GetData(outputInfo),
+    [this]()
+    {
+      this->HadSurface = this->HadSurface || this->Report.pointCount() > 0;
+      this->Report = isopoint::Report();
+    },
     [&]() { this->Extract(inputInfo, inputArray, outputInfo); },
     [this](isopoint::OptionNaming naming)
     { return isopoint::describeReport(this->Report, naming); });
@@ -87,6 +92,7 @@ void vtkIsopointContouring::StartCounting(const std::vector<double>& isovalues)
     blocks.GetBlocks().empty() ? nullptr : blocks.GetBlocks().front().Scalars->GetName();
   counts.array = name ? name : "";
   counts.contoursBlocks = this->Options.ContourBlocks && blocks.GetBlocks().size() > 1;
+  counts.hadSurface = this->HadSurface;
   this->Report = std::move(counts);
 }
 

@@ -51,6 +51,7 @@ private:
 
   vtkIsopointUpdate& Update;
   isopoint::Report Report;
+  bool HadSurface = false; // in an earlier update
 
   // Of the present update.
   vtkIsopointOptions Options;

@@ -11,6 +11,7 @@
 #include "Output/vtkIsopointSampleArrays.h"
 #include "Update/vtkIsopointUpdate.h"
 
+#include "vtkAbstractArray.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
@@ -138,14 +139,15 @@ void vtkIsopointProbing::Probe(const std::vector<isopoint::Vector>& places,
 
 std::vector<vtkIsopointProbing::Array> vtkIsopointProbing::ProbeAll(
   const std::vector<isopoint::Vector>& places, const isopoint::ProbeOptions& options,
-  const std::set<std::string>* chosen, const std::set<std::string>& own, bool isOutsideHidden,
+  const std::set<std::string>* chosen, const std::vector<std::string>& nearest,
+  const std::set<std::string>& own, bool isOutsideHidden,
   std::vector<std::uint8_t>& kinds)
 {
   this->Report.IsOutsideLost =
     isOutsideHidden || options.outside == isopoint::OutsideStrategy::Number;
   isopoint::ProcessGroup& processes = this->Update.GetProcesses();
   std::vector<vtkIsopointSampleArray> arrays =
-    vtkListIsopointArrays(processes, this->GetBlocks(), this->Report.NotCommon);
+    vtkListIsopointArrays(processes, this->GetBlocks(), nearest, this->Report.NotCommon);
   this->Report.HasArrays = !arrays.empty();
   if (chosen)
   {
@@ -166,8 +168,8 @@ std::vector<vtkIsopointProbing::Array> vtkIsopointProbing::ProbeAll(
   const auto isOwn = [&](const vtkIsopointSampleArray& array)
   { return own.count(array.Name) > 0 && this->Report.Replaced.insert(array.Name).second; };
   arrays.erase(std::remove_if(arrays.begin(), arrays.end(), isOwn), arrays.end());
-  const std::vector<vtkSmartPointer<vtkDataArray>> results =
-    vtkProbeIsopointArrays(arrays, this->GetBlocks(), options, places.size(), processes.size() == 1,
+  const std::vector<vtkSmartPointer<vtkAbstractArray>> results =
+    vtkProbeIsopointArrays(processes, arrays, this->GetBlocks(), options, places.size(),
       [&](const std::vector<isopoint::ProbedArray>& probed)
       { this->Probe(places, options, probed, kinds); });
   std::vector<Array> found;
@@ -243,7 +245,7 @@ std::vector<isopoint::Message> vtkIsopointProbing::Describe() const
   if (!report.HasArrays && report.NotCommon.empty())
   {
     messages.push_back({ "no arrays",
-      "The samples have no arrays of numbers, nor has the output. Load arrays in the reader." });
+      "The samples have no arrays, nor has the output. Load arrays in the reader." });
   }
   if (areUsed && report.Places > 0 && report.Outside == report.Places && report.IsOutsideLost)
   {
@@ -259,7 +261,7 @@ std::vector<isopoint::Message> vtkIsopointProbing::Describe() const
         "the samples around are in a plane or on a line: " +
         (report.AreGradients ? "gradients have no part across."
                              : "values are those at the nearest point of it."),
-      Message::Note });
+      report.AreGradients && report.Flat == report.Places ? Message::Warning : Message::Note });
   }
   if (report.WithoutGradient > 0)
   {
@@ -277,7 +279,7 @@ std::vector<isopoint::Message> vtkIsopointProbing::Describe() const
   if (!report.NotCommon.empty())
   {
     messages.push_back(vtkDescribeLeftOut(report.NotCommon,
-      "Only arrays of numbers are interpolated that all blocks have, with the same components."));
+      "Only arrays of numbers and text are kept that all blocks have, with the same components."));
   }
   return messages;
 }

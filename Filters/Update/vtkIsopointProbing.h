@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-class vtkDataArray;
+class vtkAbstractArray;
 class vtkDataObject;
 class vtkDataSet;
 class vtkDoubleArray;
@@ -57,6 +57,7 @@ public:
 
   /// Interpolates arrays of the samples. Counts places, arrays left out, and places outside.
   /// @param chosen the names of the arrays; null: all
+  /// @param nearest names of arrays that take the nearest value, besides ids and strings
   /// @param own names of arrays that the filter makes itself; those of samples are left out
   /// @param isOutsideHidden whether places outside will be hidden
   /// @param kinds receives isopoint::PlaceKinds of each place
@@ -64,11 +65,12 @@ public:
   /// @throws isopoint::UsageError if none is among the chosen ones
   struct Array
   {
-    vtkSmartPointer<vtkDataArray> Values;
+    vtkSmartPointer<vtkAbstractArray> Values;
     int Attribute; // a vtkDataSetAttributes::AttributeTypes, or -1
   };
   std::vector<Array> ProbeAll(const std::vector<isopoint::Vector>& places,
     const isopoint::ProbeOptions& options, const std::set<std::string>* chosen,
+    const std::vector<std::string>& nearest,
     const std::set<std::string>& own, bool isOutsideHidden, std::vector<std::uint8_t>& kinds);
 
   /// The chosen array of the samples, perhaps without a name.

@@ -112,8 +112,12 @@ void vtkIsopointSlicing::Slice(
   cut.Check();
   isopoint::checkOptions(options.Core, this->Update.GetOptionNaming());
   const int method = options.Method ? static_cast<int>(*options.Method) : -1;
-  this->Update.CheckOptionsOnRanks(std::to_string(method) + options.Describe(),
-    options.Core.capping ? "find the body of" : "slice");
+  std::string described = std::to_string(method) + options.Describe();
+  for (const std::string& name : options.Nearest)
+  {
+    described += " \"" + name + "\"";
+  }
+  this->Update.CheckOptionsOnRanks(described, options.Core.capping ? "find the body of" : "slice");
   const int ghostLevels = this->Update.GetGhostLevels(outputInfo);
 
   vtkIsopointCloud& cloud = this->Load(cut, inputInfo);
@@ -235,48 +239,53 @@ void vtkIsopointSlicing::FillOutput(const Options& options, const vtkIsopointCut
     cut.MovePoints(execution, surfaces, samples, output);
   }
   std::set<std::string> others;
-  vtkListIsopointArrays(this->Update.GetProcesses(), cloud.Blocks, others);
+  std::vector<vtkIsopointSampleArray> arrays =
+    vtkListIsopointArrays(this->Update.GetProcesses(), cloud.Blocks, options.Nearest, others);
   std::copy_if(others.begin(), others.end(), std::inserter(this->Dropped, this->Dropped.end()),
     [&](const std::string& name) { return !output->GetPointData()->HasArray(name.c_str()); });
-  if (options.Method)
+  if (!options.Method)
   {
-    this->Fit(*options.Method, cloud, output);
+    arrays.erase(std::remove_if(arrays.begin(), arrays.end(),
+                   [](const vtkIsopointSampleArray& array) { return !array.IsNearest; }),
+      arrays.end());
+  }
+  if (!options.Core.capping && !arrays.empty())
+  {
+    this->Fit(options, arrays, cloud, output);
   }
 }
 
 /// Replaces arrays by those of a method, where it has values. Fits extrapolate at rims: edges of
 /// slivers on the convex hull are far too long for linear interpolation.
-void vtkIsopointSlicing::Fit(
-  isopoint::PlaceMethod method, vtkIsopointCloud& cloud, vtkPolyData* output)
+void vtkIsopointSlicing::Fit(const Options& sliceOptions,
+  const std::vector<vtkIsopointSampleArray>& arrays, vtkIsopointCloud& cloud, vtkPolyData* output)
 {
   std::vector<isopoint::Vector> places(static_cast<std::size_t>(output->GetNumberOfPoints()));
   for (std::size_t i = 0; i < places.size(); ++i)
   {
     output->GetPoint(static_cast<vtkIdType>(i), places[i].data());
   }
-  isopoint::ProcessGroup& processes = this->Update.GetProcesses();
   isopoint::ProbeOptions options;
-  options.method = method;
+  options.method = sliceOptions.Method.value_or(isopoint::PlaceMethod::Nearest);
   options.outside = isopoint::OutsideStrategy::Extrapolate;
-  std::set<std::string> dropped;
-  const std::vector<vtkIsopointSampleArray> arrays =
-    vtkListIsopointArrays(processes, cloud.Blocks, dropped);
-  if (arrays.empty())
+  const std::vector<vtkSmartPointer<vtkAbstractArray>> found = vtkProbeIsopointArrays(
+    this->Update.GetProcesses(), arrays, cloud.Blocks, options, places.size(),
+    [&](const std::vector<isopoint::ProbedArray>& probed)
+    {
+      cloud.Extractor.probe(
+        isopoint::partOf(this->Update.GetExecution(), extracted, 1.0), places, options, probed);
+    });
+  for (std::size_t i = 0; i < arrays.size(); ++i)
   {
-    return;
-  }
-  for (const vtkSmartPointer<vtkDataArray>& found :
-    vtkProbeIsopointArrays(arrays, cloud.Blocks, options, places.size(), processes.size() == 1,
-      [&](const std::vector<isopoint::ProbedArray>& probed)
-      {
-        cloud.Extractor.probe(
-          isopoint::partOf(this->Update.GetExecution(), extracted, 1.0), places, options, probed);
-      }))
-  {
-    vtkDataArray* const array = output->GetPointData()->GetArray(found->GetName());
+    if (arrays[i].IsNearest)
+    {
+      vtkAddAttribute(arrays[i].Attribute, found[i], output->GetPointData());
+      continue;
+    }
+    vtkDataArray* const array = output->GetPointData()->GetArray(found[i]->GetName());
     if (array)
     {
-      vtkReplaceIsopointNumbers(found, array);
+      vtkReplaceIsopointNumbers(vtkDataArray::SafeDownCast(found[i]), array);
     }
   }
 }

@@ -23,6 +23,7 @@ class vtkIsopointUpdate;
 class vtkPolyData;
 class vtkPointData;
 struct vtkIsopointCloud;
+struct vtkIsopointSampleArray;
 
 /// Slices samples in the updates of a filter, or finds their body: the surface of values that a
 /// function has at the samples, with all their arrays.
@@ -34,6 +35,7 @@ public:
   {
     vtkSmartPointer<vtkImplicitFunction> Function{};
     std::optional<isopoint::PlaceMethod> Method{}; // of arrays; none: linear along edges
+    std::vector<std::string> Nearest{}; // arrays that take the nearest value, besides ids and text
   };
 
   /// Of triangles with points on edges, without normals.
@@ -56,7 +58,8 @@ private:
   vtkIsopointCloud& Load(const vtkIsopointCut& cut, vtkInformation* inputInfo);
   void FillOutput(const Options& options, const vtkIsopointCut& cut, vtkIsopointCloud& cloud,
     std::vector<isopoint::ExtractedIsosurface>& surfaces, vtkPolyData* output);
-  void Fit(isopoint::PlaceMethod method, vtkIsopointCloud& cloud, vtkPolyData* output);
+  void Fit(const Options& options, const std::vector<vtkIsopointSampleArray>& arrays,
+    vtkIsopointCloud& cloud, vtkPolyData* output);
   std::vector<isopoint::Message> Describe(isopoint::OptionNaming naming) const;
 
   vtkIsopointUpdate& Update;

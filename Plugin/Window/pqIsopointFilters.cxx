@@ -252,13 +252,13 @@ void pqIsopointFilters::explainEmptyResult(pqPipelineFilter* filter)
   std::string message;
   if (isAny(vtkSMIsopointRepresentationDomain::AreIsopoints))
   {
-    message = label + " yields nothing from isopoints, which have no cells."
+    message = label + " yields nothing from isopoints, which are no mesh."
                       " Apply it to the triangles of Scattered Isosurface instead.\n";
   }
   else if (isAny(mayBePoints))
   {
     message =
-      label + " yields nothing from points without cells. Apply " + found->second + " instead.\n";
+      label + " yields nothing from points without a mesh. Apply " + found->second + " instead.\n";
   }
   if (!message.empty())
   {

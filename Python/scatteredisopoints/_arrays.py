@@ -11,7 +11,7 @@ from typing import Any, Iterable, Mapping, Optional, Union
 import numpy as np
 
 # As in vtkType.h and vtkDataObject::FieldAssociations.
-BIT, UNSIGNED_CHAR, FLOAT = 1, 3, 10
+BIT, UNSIGNED_CHAR, FLOAT, ID_TYPE = 1, 3, 10, 12
 POINT, CELL = 0, 1
 
 MAPPING_NEEDED = "arrays are a mapping of names, which are strings, to arrays"
@@ -113,6 +113,17 @@ def values_of(array: Any, count: int) -> tuple[np.ndarray, Optional[np.ndarray]]
         masked = _checked_values(np.ma.getmaskarray(array), count).view(bool)
         array = array.data
     return _checked_values(array, count), masked if masked is not None and masked.any() else None
+
+
+def negated(numbers: np.ndarray) -> np.ndarray:
+    """Negated numbers. Integers stay integers, since they count as rounded, unless int64 cannot hold one."""
+    if numbers.dtype.kind == "f":
+        return -numbers
+    limits = np.iinfo(np.int64)
+    if numbers.dtype == np.uint64 and numbers.size and numbers.max() > limits.max:
+        return -numbers.astype(np.float64)
+    # The library reads the least and the negated greatest number as the same double.
+    return -np.maximum(numbers.astype(np.int64, copy=False), -limits.max)
 
 
 def describe_masked(masked: np.ndarray) -> str:

@@ -27,12 +27,13 @@ def compute_body(samples: Samples, options: Mapping[str, Any], arrays: Any, thre
     """The body of samples, with arrays as of Samples.body(), and messages. Calls `report` with the share done."""
     chosen = make_options(True, {**options, "capping": True, "projection": None, "compute_normals": False})
     with samples._in_call(threads) as threads:
-        of_samples = samples._arrays_of(arrays)
+        of_samples, nearest = samples._arrays_of(arrays)
+        of_samples = {name: array for name, array in of_samples.items() if not samples._has_global_ids(name)}
         if samples._loaded_key != "body":
             samples._load_values("body", np.zeros(len(samples)), [samples._excluded],
                                  {"progress": part(report, 0.0, 0.3)})
         surface = samples._surface([-math.inf], chosen, {"progress": part(report, 0.3, 1.0)})
-        found = samples._interpolated(surface, of_samples, None)
+        found = samples._interpolated(surface, of_samples, None, nearest)
     isosurface = samples._as_isosurface(surface, found, [-math.inf], chosen, threads)
     isosurface.cell_arrays = {}  # all is a cap
     return isosurface, _library.messages(surface)

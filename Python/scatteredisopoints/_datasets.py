@@ -13,15 +13,15 @@ from typing import Any, Callable, Iterable, Iterator, Mapping, Optional, Sequenc
 import numpy as np
 
 from ._arrays import (
-    CELL, FLOAT, POINT, are_names, as_numpy, checksum, module_of, package_of, positions_of, readable, shape_error,
-    values_of)
+    CELL, FLOAT, ID_TYPE, POINT, are_names, as_numpy, checksum, module_of, package_of, positions_of, readable,
+    shape_error, values_of)
 from ._ghosts import excluded_cells, excluded_points, ghosts_of
 from ._library import Message
 from ._lines_and_grids import lattice
 from ._polydata import PolyDataMaker
 
 # As in vtkDataSetAttributes::AttributeTypes.
-SCALARS, GLOBAL_IDS, PEDIGREE_IDS = 0, 5, 6
+SCALARS, GLOBAL_IDS, PEDIGREE_IDS, PROCESS_IDS = 0, 5, 6, 11
 
 
 @dataclass
@@ -42,6 +42,7 @@ class DataSamples:
     association: int = POINT  # of the first block
     are_float: bool = True  # whether the values of all blocks are float32, and isovalues in the output too
     parts: list[Part] = field(default_factory=list)  # one for each block of a data object
+    ids: dict[str, int] = field(default_factory=dict)  # arrays with ids: types of attribute that they are, or -1
 
 
 @dataclass(frozen=True)
@@ -353,16 +354,27 @@ def _block(leaf: Any, association: int, scalars: Any, are_values: bool = True) -
         positions, excluded = _cell_centers(leaf), excluded_cells(leaf)
     else:
         positions, excluded = point_positions(leaf), excluded_points(leaf)
-    arrays, uses = {}, {}
+    arrays, uses, ids, id_types = {}, {}, {}, set()
     for key, array, use in named_arrays(leaf.GetAttributes(association)):
-        if array is not scalars and array.GetNumberOfTuples() == count and use != GLOBAL_IDS:
+        if array.GetNumberOfTuples() != count:
+            continue
+        if has_ids(array, use):
+            ids[key] = use
+            id_types.update([key] if has_ids(array) else [])
+        if array is not scalars:
             arrays[key] = array
-            if use >= 0:
+            if use not in (-1, GLOBAL_IDS):  # several points may have the id of one sample
                 uses[key] = use
-    maker = PolyDataMaker(scalars=name or None, uses=uses)
+    maker = PolyDataMaker(scalars=name or None, uses=uses, id_types=id_types)
     return DataSamples(positions, scalars if are_values else None, excluded, arrays, maker, association=association,
-                       of_text=_names_of_text(leaf.GetAttributes(association)),
+                       of_text=_names_of_text(leaf.GetAttributes(association)), ids=ids,
                        name="" if scalars is None or isinstance(scalars, np.ndarray) else name)
+
+
+def has_ids(array: Any, use: int = -1) -> bool:
+    """Whether an array has ids: by its type of attribute, or of the type vtkIdType. NumPy's arrays have none."""
+    return use in (GLOBAL_IDS, PEDIGREE_IDS, PROCESS_IDS) or (
+        hasattr(array, "GetDataType") and array.GetDataType() == ID_TYPE)
 
 
 def _names_of_text(attributes: Any) -> tuple[str, ...]:
@@ -391,13 +403,16 @@ def _joined(blocks: list[DataSamples]) -> DataSamples:
     differing = {key: None for names in (first, *others) for key in names if key not in arrays}
     uses = {key: use for key, use in blocks[0].maker.uses.items()
             if key in arrays and all(block.maker.uses.get(key) == use for block in blocks)}
+    ids = {key: use for block in blocks for key, use in block.ids.items()}
+    id_types = set.union(*(set(block.maker.id_types) for block in blocks))
     name = next(filter(None, (block.name for block in blocks)), "")
     excluded = [np.zeros(len(place), bool) if block.excluded is None else block.excluded
                 for block, place in zip(blocks, positions)]
     values = [as_numpy(block.values) for block in blocks if block.values is not None]
     return DataSamples(np.concatenate(positions), np.concatenate(values) if values else None,
                        np.concatenate(excluded), arrays,
-                       PolyDataMaker(scalars=name or None, uses=uses), differing=tuple(differing), name=name,
+                       PolyDataMaker(scalars=name or None, uses=uses, id_types=id_types),
+                       differing=tuple(differing), name=name, ids=ids,
                        of_text=tuple(dict.fromkeys(each for block in blocks for each in block.of_text)),
                        are_float=all(each.dtype == np.float32 for each in values),
                        parts=[part for block in blocks for part in block.parts])

@@ -152,6 +152,7 @@ def slice_samples(
     function: Any = None,
     offsets: Union[float, Iterable[float]] = 0.0,
     interpolation: str = "fits",
+    nearest_arrays: Union[str, Iterable[str]] = (),
     threads: Optional[int] = None,
     progress: Progress = None,
     **options: Unpack[SliceOptions],
@@ -178,6 +179,9 @@ def slice_samples(
     interpolation
         "fits": local polynomials, as :func:`probe` fits them with outside=None. "linear": linear along the edges
         between samples. "nearest": the value of the nearest sample, as for numbers of materials.
+    nearest_arrays
+        Names of arrays that take the value of the nearest sample in any case. Of a data set, ids do: global, pedigree
+        and process ids, and arrays of the type vtkIdType.
     **options
         drop_gaps=False: the slice of the whole convex hull. regularize=False: the exact slice of the Delaunay
         tetrahedralization. output_points_precision="single_precision" or "double_precision".
@@ -186,8 +190,8 @@ def slice_samples(
     -------
     Isosurface
         Triangles, counterclockwise seen from the side to which the normal does not point, and arrays, which keep
-        their types: integers are rounded. One array without a name is called "values". Errors and warnings are as in
-        :func:`contour`.
+        their types: integers are rounded, and stay within the samples' range. One array without a name is called
+        "values". Errors and warnings are as in :func:`contour`.
 
     Examples
     --------
@@ -200,7 +204,7 @@ def slice_samples(
     """
     with _loaded(positions, arrays, "Slicing", threads, progress) as (samples, report):
         return slice_with_warnings(samples, normal, origin, arrays, function, offsets, interpolation, None, report,
-                                   options, stacklevel=3)
+                                   options, stacklevel=3, nearest_arrays=nearest_arrays)
 
 
 def probe(
@@ -211,6 +215,7 @@ def probe(
     gradient: bool = False,
     method: str = "blend",
     outside: Union[float, str, None] = math.nan,
+    nearest_arrays: Union[str, Iterable[str]] = (),
     threads: Optional[int] = None,
     progress: Progress = None,
 ) -> Any:
@@ -234,14 +239,16 @@ def probe(
     outside
         What places outside the samples get: a number, "nearest" for the value of the nearest sample, or None for
         what the method gives there.
+    nearest_arrays
+        Names of arrays that take the nearest value by any method, as in :func:`slice_samples`, and their gradients 0.
 
     Returns
     -------
-    Values of float64, shape (m,) or (m, c). "nearest" keeps float32, float64 and integers, which are 0 outside if
-    they cannot be the number. Of other types, bool gives uint8, float16 float32, and longdouble float64; integers
-    with masked entries give float32 up to 16 bits, and float64 above. With gradient, a pair of these and of
-    gradients, shape (m, 3) or (m, c, 3); for m, the shape of the places without their last axis. A dict of arrays
-    gives dicts. Errors and warnings are as in :func:`contour`.
+    Values of float64, shape (m,) or (m, c); those of integers stay within the range of the samples. The nearest value
+    keeps float32, float64 and integers, which are 0 outside if they cannot be the number. Of other types, bool gives
+    uint8, float16 float32, and longdouble float64; integers with masked entries give float32 up to 16 bits, and float64
+    above. With gradient, a pair of these and of gradients, shape (m, 3) or (m, c, 3); for m, the shape of the places
+    without their last axis. A dict of arrays gives dicts. Errors and warnings are as in :func:`contour`.
 
     Examples
     --------
@@ -254,7 +261,8 @@ def probe(
     """
     _require(values)
     with _loaded(positions, values, "Probing", threads, progress) as (samples, report):
-        return samples._probe(places, values, gradient, method, outside, None, report, stacklevel=3)
+        return samples._probe(places, values, gradient, method, outside, None, report, stacklevel=3,
+                              nearest_arrays=nearest_arrays)
 
 
 def gradient(

@@ -30,8 +30,8 @@ TYPES = tuple(np.dtype(kind) for kind in ("f4", "f8", "i1", "u1", "i2", "u2", "i
 OUTSIDE_NUMBER, OUTSIDE_NEAREST, OUTSIDE_EXTRAPOLATE = range(3)
 PLACE_OUTSIDE, PLACE_FLAT = 1, 2
 
-# isopoint_message_code: splats that do not meet
-SPLATS_APART = 9
+# isopoint_message_code: splats that do not meet, isovalues at an end of the values
+SPLATS_APART, ISOVALUE_AT_END = 9, 15
 
 # isopoint_status
 (OK, INVALID_ARGUMENT, OUT_OF_MEMORY, CANCELED, INTERNAL_ERROR, INVALID_ARRAY, INVALID_OPTION, INVALID_ORDER,

@@ -29,7 +29,8 @@ INTERPOLATIONS = {"fits": "blend", "linear": None, "nearest": "nearest"}
 
 # Parameters that are no options, of contour(), and of slice_samples() and body().
 _OF_CONTOUR = ("arrays", "isovalues", "progress", "threads", "triangles")
-_OF_SLICES = ("arrays", "function", "interpolation", "normal", "offsets", "origin", "progress", "threads")
+_OF_SLICES = ("arrays", "function", "interpolation", "nearest_arrays", "normal", "offsets", "origin", "progress",
+              "threads")
 OF_BODIES = ("arrays", "progress", "threads")
 
 

@@ -7,7 +7,7 @@ import importlib
 import importlib.util
 import math
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional
+from typing import TYPE_CHECKING, Any, Collection, Iterator, Mapping, Optional
 
 import numpy as np
 
@@ -37,6 +37,9 @@ class PolyDataMaker:
     normals: Optional[str] = "Normals"
     """The name of computed normals; None: there are none, and an array of this name is one of the samples."""
 
+    id_types: Collection[str] = ()
+    """Arrays of the type vtkIdType."""
+
     def __getstate__(self) -> dict[str, Any]:
         return {**vars(self), "field_data": None}  # VTK's objects cannot be pickled
 
@@ -58,12 +61,13 @@ class PolyDataMaker:
             result.SetData(ids(offsets), ids(corners.ravel()))
             return result
 
-        def arrays(named: Mapping[str, np.ndarray]) -> Iterator[Any]:
+        def arrays(named: Mapping[str, np.ndarray], id_types: Collection[str] = ()) -> Iterator[Any]:
             for name, array in named.items():
                 if shares_memory:
                     array = array.view()
                     array.flags.writeable = True
-                yield as_vtk(package, name, array)
+                is_id_type = name in id_types and array.dtype == np.int64
+                yield as_vtk(package, name, array, id_type if is_id_type else None)
 
         data = model.vtkPolyData()
         points = core.vtkPoints()
@@ -74,7 +78,7 @@ class PolyDataMaker:
         else:
             data.SetVerts(cells(np.arange(len(surface.points), dtype=np.int64)[:, None]))
         attributes = data.GetPointData()
-        for array in arrays(surface.arrays):
+        for array in arrays(surface.arrays, self.id_types):
             index = attributes.AddArray(array)
             if array.GetName() in self.uses:
                 attributes.SetActiveAttribute(index, self.uses[array.GetName()])
@@ -96,12 +100,12 @@ class PolyDataMaker:
         return data
 
 
-def as_vtk(package: str, name: str, array: np.ndarray) -> Any:
+def as_vtk(package: str, name: str, array: np.ndarray, data_type: Optional[int] = None) -> Any:
     """A VTK array that shares the memory and keeps it alive. Copies layouts that VTK does not have, and
     read-only arrays, into which VTK would write. Tensors become vectors."""
     support = importlib.import_module(package + ".util.numpy_support")
     table = array if array.ndim < 3 else array.reshape(len(array), math.prod(array.shape[1:]))
-    result = support.numpy_to_vtk(np.require(table, requirements=["C", "W"]))
+    result = support.numpy_to_vtk(np.require(table, requirements=["C", "W"]), array_type=data_type)
     result.SetName(name)
     return result
 

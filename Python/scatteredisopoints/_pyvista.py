@@ -188,6 +188,7 @@ class ScatteredAccessor:
         gradient: bool = False,
         method: str = "blend",
         outside: Union[float, str, None] = math.nan,
+        nearest_arrays: Union[str, Iterable[str]] = (),
         preference: str = "point",
         progress_bar: bool = False,
         threads: Optional[int] = None,
@@ -204,7 +205,7 @@ class ScatteredAccessor:
         gradient : bool, default: False
             Whether to add gradients, too, named as the array and ``_gradient``. The index of a component varies
             slower than that of a derivative, as in :meth:`compute_derivative`.
-        method, outside
+        method, outside, nearest_arrays
             As in :func:`scatteredisopoints.probe`.
         preference, progress_bar, threads
             As in :meth:`contour`.
@@ -215,7 +216,7 @@ class ScatteredAccessor:
             A shallow copy of ``where``, or a ``PolyData`` of points, with the arrays, which replace its own of the
             same names.
         """
-        return self._probe(where, scalars, gradient, method, outside, preference, progress_bar, threads)
+        return self._probe(where, scalars, gradient, method, outside, nearest_arrays, preference, progress_bar, threads)
 
     def sample_over_line(
         self,
@@ -389,11 +390,11 @@ class ScatteredAccessor:
         options = dict(options)
         scalars, preference = options.pop("scalars", None), options.pop("preference", "point")
         offsets, interpolation = options.pop("offsets", 0.0), options.pop("interpolation", "fits")
-        threads = options.pop("threads", None)
+        threads, nearest_arrays = options.pop("threads", None), options.pop("nearest_arrays", ())
         with self._samples_with(scalars, preference, progress, threads, needs_arrays=False) as (samples, arrays):
             result = slice_with_warnings(
                 samples, normal, origin, None if scalars is None else arrays, function, offsets, interpolation, threads,
-                progress, options, stacklevel=4)._into_polydata()
+                progress, options, stacklevel=4, nearest_arrays=nearest_arrays)._into_polydata()
         if not (switch("contour", contour) and result.n_cells):
             return result
         try:
@@ -458,13 +459,14 @@ class ScatteredAccessor:
         return result
 
     def _probe(self, where: Any, scalars: Any, gradient: bool, method: str, outside: Union[float, str, None],
-               preference: str, progress_bar: bool, threads: Optional[int],
+               nearest_arrays: Union[str, Iterable[str]], preference: str, progress_bar: bool, threads: Optional[int],
                computed: Optional[Mapping[str, np.ndarray]] = None) -> Any:
         """probe(), with further arrays that are computed."""
         data = _datasets.data_object(where)
         places = pv.PolyData(_datasets.place_positions(where)[0].copy()) if data is None else data
         with self._samples_with(scalars, preference, progress_bar, threads) as (samples, arrays):
-            found = samples._probe(places, arrays, gradient, method, outside, threads, progress_bar, stacklevel=4)
+            found = samples._probe(places, arrays, gradient, method, outside, threads, progress_bar, stacklevel=4,
+                                   nearest_arrays=nearest_arrays)
             differing, of_text = (samples._differing, samples._of_text) if scalars is None else ((), ())
         values, gradients = found if gradient else (found, {})
         computed = {**{name + "_gradient": array for name, array in gradients.items()}, **(computed or {})}
@@ -497,8 +499,7 @@ class ScatteredAccessor:
         choice = "without values", is_any, *names, *associations
         with _kept_samples(data, choice, None, find, progress, threads, True) as samples:
             if scalars is None:
-                uses = samples._maker.uses
-                names = [name for name in samples._arrays or {} if uses.get(name) != _datasets.PEDIGREE_IDS]
+                names = list(samples._arrays or {})
             yield samples, {name: name for name in names} if scalars is None or names else {"values": scalars}
 
     def _checked(self) -> Any:
@@ -534,7 +535,8 @@ def _associations(preference: str) -> tuple[int, ...]:
 
 def _check_slice_options(given: Mapping[str, Any], method: Callable[..., Any]) -> None:
     """Raises TypeError for an option that slices do not have."""
-    names = *SliceOptions.__annotations__, "interpolation", "offsets", "preference", "scalars", "threads"
+    names = (*SliceOptions.__annotations__, "interpolation", "nearest_arrays", "offsets", "preference", "scalars",
+             "threads")
     check_names(given, names, parameters_of(method))
 
 

@@ -10,14 +10,14 @@ import warnings
 import weakref
 from ctypes import byref, c_double, c_void_p
 from dataclasses import dataclass, replace
-from typing import Any, Iterable, Iterator, Mapping, Optional, Union
+from typing import Any, Collection, Iterable, Iterator, Mapping, Optional, Union
 
 import numpy as np
 
 from . import _datasets, _library
 from ._arrays import (
-    are_names, as_numpy, by_name, checked_tensors, describe_masked, further_arrays, levels_of, positions_of, readable,
-    values_of, without_text)
+    are_names, as_numpy, by_name, checked_tensors, describe_masked, further_arrays, levels_of, negated, positions_of,
+    readable, values_of, without_text)
 from ._bodies import body_with_warnings
 from ._cuts import Normal
 from ._interpolator import Interpolator
@@ -25,7 +25,7 @@ from ._isosurface import Isosurface, describe_not_finite
 from ._option_types import BodyOptions, ContourOptions, SliceOptions, Unpack
 from ._options import (
     CONSTANTS, direction_sign, hint, make_options, make_probe_options, switch, thread_count)
-from ._progress import Progress, shown_progress
+from ._progress import Progress, part, shown_progress
 from ._slices import slice_with_warnings
 
 
@@ -121,6 +121,7 @@ class Samples:
         self._without_array, self._name = samples.without_array, samples.name
         self._differing, self._of_text = samples.differing, samples.of_text
         self._association = samples.association
+        self._ids = samples.ids
         self._load(samples.values, samples.masked, samples.are_float, **callbacks)
 
     def __len__(self) -> int:
@@ -223,9 +224,7 @@ class Samples:
         if self._loaded_key != sign and (self._values is not None or is_lost):
             numbers = None if self._values is None else readable("values", as_numpy(self._values))
             if sign < 0 and numbers is not None:
-                is_narrow = numbers.dtype.kind in "iu" and numbers.dtype.itemsize < 8
-                wide = np.int64 if is_narrow else numbers.dtype if numbers.dtype == np.float32 else np.float64
-                numbers = -numbers.astype(wide, copy=False)
+                numbers = negated(numbers)
             self._load_values(sign, numbers, [self._excluded, self._masked], callbacks)
 
     def _require_samples(self) -> None:
@@ -274,7 +273,8 @@ class Samples:
         chosen = make_options(triangles, options)
         sign = direction_sign(options.get("gradient_direction", "descent"))
         levels = levels_of("isovalues", isovalues)
-        of_samples = further_arrays(arrays, len(self)) if self._arrays is None else self._arrays
+        of_samples = further_arrays(arrays, len(self)) if self._arrays is None else {
+            name: array for name, array in self._arrays.items() if not self._has_global_ids(name)}
         with self._in_call(threads) as threads:
             if self._values is None:
                 raise ValueError("The samples were made without values: call replace_values().")
@@ -286,7 +286,7 @@ class Samples:
                     describe_masked(self._masked), is_warning=False, cause="masked values"))
             if self._without_array:
                 messages.append(_datasets.describe_without_array(self._without_array, self._name))
-            found = self._interpolated(surface, of_samples, callbacks.get("is_canceled"))
+            found = self._interpolated(surface, of_samples, callbacks.get("is_canceled"), self._ids)
             if options.get("compute_scalars", True):
                 name = self._maker.scalars or "values"
                 if name in found:
@@ -335,6 +335,7 @@ class Samples:
         function: Any = None,
         offsets: Union[float, Iterable[float]] = 0.0,
         interpolation: str = "fits",
+        nearest_arrays: Union[str, Iterable[str]] = (),
         threads: Optional[int] = None,
         progress: Progress = None,
         **options: Unpack[SliceOptions],
@@ -350,7 +351,7 @@ class Samples:
             of.
         """
         return slice_with_warnings(self, normal, origin, arrays, function, offsets, interpolation, threads, progress,
-                                   options, stacklevel=3)
+                                   options, stacklevel=3, nearest_arrays=nearest_arrays)
 
     def probe(
         self,
@@ -360,6 +361,7 @@ class Samples:
         gradient: bool = False,
         method: str = "blend",
         outside: Union[float, str, None] = math.nan,
+        nearest_arrays: Union[str, Iterable[str]] = (),
         threads: Optional[int] = None,
         progress: Progress = None,
     ) -> Any:
@@ -371,7 +373,8 @@ class Samples:
             One per sample, or names of arrays of the data set that the samples were made of. None: the values of
             the samples. A mapping of names to arrays, or a list of names, gives a dict.
         """
-        return self._probe(places, arrays, gradient, method, outside, threads, progress, stacklevel=3)
+        return self._probe(places, arrays, gradient, method, outside, threads, progress, stacklevel=3,
+                           nearest_arrays=nearest_arrays)
 
     def gradient(
         self, *, arrays: Any = None, method: str = "blend", threads: Optional[int] = None, progress: Progress = None
@@ -399,10 +402,15 @@ class Samples:
     def _gradient(self, arrays, method, threads, progress, stacklevel) -> Any:
         """gradient()."""
         places = self._current("positions", self._positions)
-        return self._probe(places, arrays, True, method, math.nan, threads, progress, stacklevel + 1)[1]
+        return self._probe(places, arrays, True, method, math.nan, threads, progress, stacklevel + 1,
+                           nearest_arrays=None)[1]
 
-    def _probe(self, places, arrays, gradient, method, outside, threads, progress, stacklevel, seeks_gaps=True) -> Any:
-        """probe(). Seeks entries of the arrays that are no numbers, for a message, which takes a pass over them."""
+    def _probe(self, places, arrays, gradient, method, outside, threads, progress, stacklevel, seeks_gaps=True,
+               nearest_arrays=()) -> Any:
+        """probe(). Seeks entries of the arrays that are no numbers, for a message, which takes a pass over them.
+
+        nearest_arrays: None if not even ids take the nearest value.
+        """
         chosen, with_gradients = make_probe_options(method, outside), switch("gradient", gradient)
         is_nearest = chosen.method == CONSTANTS["method"]["nearest"]
         if with_gradients and is_nearest:
@@ -412,7 +420,9 @@ class Samples:
         points, shape = _datasets.place_positions(places)
         with shown_progress(progress, "Probing") as report, self._in_call(threads):
             numbers = {name: self._numbers_of(array, name) for name, array in many.items()}
-            values, gradients, kinds = self._probed(points, numbers, chosen, with_gradients, report)
+            nearest = () if nearest_arrays is None else self._nearest(many, nearest_arrays)
+            values, gradients, kinds = self._probed(
+                points, numbers, chosen, with_gradients, report, nearest=nearest)
             texts = [*self._describe_left_out(), *_describe_flat(kinds),
                      *([_datasets.describe_text(of_text)] if of_text else [])]
             for name, array in many.items() if seeks_gaps else ():
@@ -426,23 +436,36 @@ class Samples:
         return (values, gradients) if with_gradients else values
 
     def _probed(self, points: np.ndarray, numbers: Mapping[str, np.ndarray], options: _library.ProbeOptions,
-                with_gradients: bool, report: Any, leaves_out: bool = True) -> tuple[dict, dict, np.ndarray]:
-        """Values, gradients and kinds of places, without samples that lack a value if these are to be left out. Within
-        _in_call()."""
-        is_nearest = options.method == CONSTANTS["method"]["nearest"]
+                with_gradients: bool, report: Any, leaves_out: bool = True, nearest: Collection[str] = ()
+                ) -> tuple[dict, dict, np.ndarray]:
+        """Values, gradients and kinds of places, without samples that lack a value if these are to be left out. Some
+        arrays take the nearest value, whatever the method. Within _in_call()."""
+        by_nearest = _library.ProbeOptions.from_buffer_copy(options)
+        by_nearest.method = CONSTANTS["method"]["nearest"]
         values, gradients = {}, {}
         for name, array in numbers.items():
-            shape = len(points), *array.shape[1:]
+            shape, is_nearest = (len(points), *array.shape[1:]), name in nearest or options.method == by_nearest.method
             values[name] = np.empty(shape, array.dtype if is_nearest else np.float64)
-            gradients[name] = np.empty((*shape, 3)) if with_gradients else None
+            gradients[name] = np.zeros((*shape, 3)) if with_gradients else None
         kinds = np.empty(len(points), np.uint8)
         if self._loaded_key is None or (leaves_out and self._skipped > 0):
             self._reload_own_values({})
+        copied = [name for name in numbers if name in nearest]
+        fitted = [name for name in numbers if name not in nearest]
+        share = 0.8 if copied and fitted else 1.0
+        if fitted or not copied:
+            self._run_probe(points, fitted, numbers, options, values, gradients, kinds, part(report, 0.0, share))
+        if copied:
+            self._run_probe(points, copied, numbers, by_nearest, values, dict.fromkeys(copied), kinds,
+                            part(report, share if fitted else 0.0, 1.0))
+        return values, gradients, kinds
+
+    def _run_probe(self, points, names, numbers, options, values, gradients, kinds, report) -> None:
+        """_probed() for some of the arrays."""
         _library.run_with(
             _library.Callbacks(report), self._extractor, _library.probe, points,
-            [array.reshape(len(array), -1) for array in numbers.values()], len(numbers), byref(options),
-            list(zip(values.values(), gradients.values())), kinds, kinds.nbytes)
-        return values, gradients, kinds
+            [numbers[name].reshape(len(numbers[name]), -1) for name in names], len(names), byref(options),
+            [(values[name], gradients[name]) for name in names], kinds, kinds.nbytes)
 
     def _describe_left_out(self) -> Iterator[str]:
         """Messages about samples that are left out."""
@@ -483,18 +506,39 @@ class Samples:
         is_of_vtk = hasattr(array, "GetDataType") and not isinstance(array, np.ndarray)
         return checked_tensors(name, self._current(name, array) if is_of_vtk else array, len(self))
 
-    def _arrays_of(self, arrays: Any) -> dict[str, Any]:
-        """Arrays by name; for None the values, and all arrays of the data set."""
+    def _arrays_of(self, arrays: Any, nearest_arrays: Any = ()) -> tuple[dict[str, Any], set[str]]:
+        """Arrays by name; for None the values, and all arrays of the data set. And those that take the nearest
+        value."""
         if arrays is not None:
-            return {name: self._numbers_of(array, name) for name, array in by_name(arrays).items()}
-        values = {} if self._values is None else {self._maker.scalars or "values": self._own_values()}
-        return {**values, **(self._arrays or {})}
+            many = by_name(arrays)
+            return ({name: self._numbers_of(array, name) for name, array in many.items()},
+                    self._nearest(many, nearest_arrays))
+        own = self._maker.scalars or "values"
+        values = {} if self._values is None else {own: self._own_values()}
+        known = {**values, **(self._arrays or {})}
+        return known, self._nearest({name: None if name in values else name for name in known}, nearest_arrays)
 
-    def _interpolated(self, surface, of_samples: Mapping[str, Any], is_canceled) -> dict[str, np.ndarray]:
+    def _has_global_ids(self, name: str) -> bool:
+        return self._ids.get(name) == _datasets.GLOBAL_IDS
+
+    def _nearest(self, many: Mapping[str, Any], listed: Union[str, Iterable[str]]) -> set[str]:
+        """Which of several arrays take the value of the nearest sample: those with ids, and listed ones."""
+        names = {listed} if isinstance(listed, str) else set(listed)
+        for name in names.difference(many):
+            raise ValueError(f"nearest_arrays cannot have {name!r}: {hint(str(name), many)}")
+
+        def has_ids(array: Any) -> bool:
+            array = self._name if array is None else array
+            return array in self._ids if isinstance(array, str) else _datasets.has_ids(array)
+
+        return names | {name for name, array in many.items() if has_ids(array)}
+
+    def _interpolated(self, surface, of_samples: Mapping[str, Any], is_canceled, nearest: Collection[str] = ()
+                      ) -> dict[str, np.ndarray]:
         count = len(_library.view(surface, _library.POINTS))
         found: dict[str, np.ndarray] = {}
         for name, array in of_samples.items():
-            if self._maker.uses.get(name) == _datasets.PEDIGREE_IDS:
+            if name in nearest:
                 is_first_nearer = _library.view(surface, _library.EDGE_PARAMETERS) < 0.5
                 edges = _library.view(surface, _library.EDGES)
                 found[name] = self._current(name, array)[np.where(is_first_nearer, *edges.T)]

@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence
+from typing import TYPE_CHECKING, Any, Collection, Mapping, Optional, Sequence
 
 import numpy as np
 
@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 
 def slice_with_warnings(
     samples: Samples, normal: Optional[Normal], origin: Any, arrays: Any, function: Any, offsets: Any,
-    interpolation: Any, threads: Optional[int], progress: Progress, options: Mapping[str, Any], stacklevel: int
+    interpolation: Any, threads: Optional[int], progress: Progress, options: Mapping[str, Any], stacklevel: int,
+    nearest_arrays: Any = ()
 ) -> Isosurface:
     """Samples.slice()."""
     method = named("interpolation", interpolation, INTERPOLATIONS)
@@ -34,7 +35,8 @@ def slice_with_warnings(
     chosen = make_slice_options(options)
     arrays, of_text = without_text(arrays)
     with shown_progress(progress, "Slicing") as report:
-        made, messages = compute_slice(samples, cut, levels, chosen, arrays, method, threads, report)
+        made, messages = compute_slice(
+            samples, cut, levels, chosen, arrays, method, threads, report, nearest_arrays)
     warn_of(samples, made, messages, arrays is None, of_text, stacklevel + 1)
     return made
 
@@ -53,20 +55,20 @@ def warn_of(samples: Samples, isosurface: Isosurface, messages: list[_library.Me
 
 
 def compute_slice(samples: Samples, cut: Cut, levels: list[float], options: _library.Options, arrays: Any,
-                  method: Optional[str], threads: Optional[int], report: Any
+                  method: Optional[str], threads: Optional[int], report: Any, nearest_arrays: Any = ()
                   ) -> tuple[Isosurface, list[_library.Message]]:
     """A slice at levels of a function, with arrays as of Samples.slice(), and messages. Calls `report` with the share
     done."""
     with samples._in_call(threads) as threads:
-        of_samples = samples._arrays_of(arrays)
+        of_samples, nearest = samples._arrays_of(arrays, nearest_arrays)
         at_samples = _load_cut(samples, cut, part(report, 0.0, 0.3))
         surface = samples._surface(levels, options, {"progress": part(report, 0.3, 0.6)})
         points = _library.view(surface, _library.POINTS)
-        found = samples._interpolated(surface, of_samples, None)
+        found = samples._interpolated(surface, of_samples, None, nearest)
         if cut.normal is None and at_samples is not None and len(points):
-            points = _moved_onto(samples, cut, at_samples, surface, points, of_samples, found)
-        if method is not None and len(points):
-            _fit(samples, points, of_samples, found, method, part(report, 0.6, 1.0))
+            points = _moved_onto(samples, cut, at_samples, surface, points, of_samples, found, nearest)
+        if (method is not None or nearest) and len(points):
+            _fit(samples, points, of_samples, found, method, part(report, 0.6, 1.0), nearest)
     if report is not None:
         report(1.0)
     made = Isosurface(points, triangles=_library.view(surface, _library.TRIANGLES), arrays=found,
@@ -99,7 +101,7 @@ def _load_cut(samples: Samples, cut: Cut, report: Any) -> Optional[np.ndarray]:
 
 
 def _moved_onto(samples: Samples, cut: Cut, at_samples: np.ndarray, surface: _library.Surface, points: np.ndarray,
-                of_samples: Mapping[str, Any], found: dict[str, np.ndarray]) -> np.ndarray:
+                of_samples: Mapping[str, Any], found: dict[str, np.ndarray], nearest: Collection[str]) -> np.ndarray:
     """Moves vertices towards the sample at an end of their edge on the other side of the function, as far as it
     crosses zero, and arrays with them."""
     levels, edges = (_library.view(surface, each) for each in (_library.ISOVALUES, _library.EDGES))
@@ -115,7 +117,7 @@ def _moved_onto(samples: Samples, cut: Cut, at_samples: np.ndarray, surface: _li
         lambda which, share: cut.at(points[which] + share[:, None] * ways[which]) - levels[which],
         before, at_samples[ends] - levels)
     for name, array in of_samples.items():
-        if samples._maker.uses.get(name) != _datasets.PEDIGREE_IDS:
+        if name not in nearest:
             share = shares.reshape(-1, *[1] * (found[name].ndim - 1))
             at_ends = readable(name, samples._current(name, array))[ends]
             found[name] = rounded((1.0 - share) * found[name] + share * at_ends, found[name].dtype)
@@ -123,12 +125,14 @@ def _moved_onto(samples: Samples, cut: Cut, at_samples: np.ndarray, surface: _li
 
 
 def _fit(samples: Samples, points: np.ndarray, of_samples: Mapping[str, Any], found: dict[str, np.ndarray],
-         method: str, report: Any) -> None:
-    """Replaces arrays at points by those of a method of probe(), where it has values. Fits extrapolate at rims: edges
-    of slivers on the convex hull are far too long for linear interpolation."""
+         method: Optional[str], report: Any, nearest: Collection[str]) -> None:
+    """Replaces arrays at points by those of a method of probe(), where it has values; None: only those that take the
+    nearest value. Fits extrapolate at rims: edges of slivers on the convex hull are far too long for linear
+    interpolation."""
     fitted = {name: samples._numbers_of(array, name) for name, array in of_samples.items()
-              if samples._maker.uses.get(name) != _datasets.PEDIGREE_IDS}
-    values, _, _ = samples._probed(points, fitted, make_probe_options(method, None), False, report, leaves_out=False)
+              if method is not None or name in nearest}
+    values, _, _ = samples._probed(points, fitted, make_probe_options(method or "nearest", None), False, report,
+                                   leaves_out=False, nearest=nearest)
     for name, numbers in values.items():
         dtype = found[name].dtype
         exact = numbers if numbers.dtype == dtype else rounded(numbers, dtype)

@@ -8,6 +8,7 @@ document them. docs/python.md in the source lists the differences.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any, Optional
 
 from vtkmodules.vtkCommonCore import vtkVersion
@@ -36,6 +37,7 @@ class _Contour(ContourValues, ScatteredAlgorithm):
 
     _triangles = False
     _has_polygons = False  # whether the output has the points' polygons
+    _had_surface = False  # in an earlier update
 
     def _output_class(self, data: Any) -> type:
         if not (self._values["ContourBlocks"] and isinstance(data, vtkCompositeDataSet)):
@@ -43,8 +45,15 @@ class _Contour(ContourValues, ScatteredAlgorithm):
         return vtkMultiBlockDataSet if data.IsA("vtkUniformGridAMR") else type(data)
 
     def _compute(self, data: Any, output: Any) -> list[_library.Message]:
-        if isinstance(output, vtkCompositeDataSet):
-            return self._contour_blocks(data, output)
+        messages = (self._contour_blocks(data, output) if isinstance(output, vtkCompositeDataSet) else
+                    self._contour_all(data, output))
+        if self._had_surface:  # animations begin and end where surfaces do
+            messages = [replace(message, is_warning=False) if message.code == _library.ISOVALUE_AT_END else message
+                        for message in messages]
+        self._had_surface |= self._counts["ExtractedPoints"] > 0
+        return messages
+
+    def _contour_all(self, data: Any, output: Any) -> list[_library.Message]:
         self._kept = {0: self._kept[0]} if 0 in self._kept else {}
         extracted = self._contour_one(data, 0, (0.0, 1.0))
         output.ShallowCopy(extracted.isosurface._into_polydata())

@@ -320,6 +320,32 @@ class ScatteredAlgorithm(Algorithm):
             self._reported.add(message.cause)
 
 
+class NearestArrays:
+    """The names of arrays whose values are those of the nearest sample."""
+
+    Modified: Callable[[], None]
+
+    def __init__(self):
+        super().__init__()
+        self._nearest: list[str] = []
+
+    def AddNearestArray(self, name: str) -> None:
+        if name not in self._nearest:
+            self._nearest.append(name)
+            self.Modified()
+
+    def ClearNearestArrays(self) -> None:
+        if self._nearest:
+            self._nearest.clear()
+            self.Modified()
+
+    def GetNumberOfNearestArrays(self) -> int:
+        return len(self._nearest)
+
+    def GetNearestArray(self, i: int) -> Optional[str]:
+        return self._nearest[i] if 0 <= i < len(self._nearest) else None
+
+
 class ContourValues:
     """The values of an algorithm, as of vtkContourFilter."""
 

@@ -54,7 +54,7 @@ class vtkScatteredGradientFilter(Probing):
             _, found, kinds = self._probe(samples, places, {name: readable(name, numbers)}, math.nan, True)
             gradients = found[name].reshape(len(places), -1, 3)
             results = {label: DERIVATIVES[derivative](gradients) for label, derivative in wanted.items()}
-            messages = [*self._describe_flat(kinds, "gradients have no part across."),
+            messages = [*self._describe_flat(kinds, "gradients have no part across.", warns_of_all=True),
                         *_describe_lacking(gradients, places)]
         _copy(data, output)
         blocks, first = list(_datasets.leaves(output)), 0

@@ -4,8 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import Any
+from typing import Any, Collection, Sequence
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray
@@ -24,7 +23,7 @@ from ._polydata import as_vtk
 from ._progress import part
 from ._samples import Samples
 from ._shared_arrays import DOUBLE, SharedArray, shared_arrays
-from ._vtk_algorithm import LOADED, ScatteredAlgorithm, describe_left_out, fill, with_properties
+from ._vtk_algorithm import LOADED, NearestArrays, ScatteredAlgorithm, describe_left_out, fill, with_properties
 
 PACKAGE = "vtkmodules"
 MASK_POINTS, NULL_VALUE, CLOSEST_POINT = range(3)
@@ -38,21 +37,23 @@ class Probing(ScatteredAlgorithm):
     """What the filters share that interpolate."""
 
     def _probe(self, samples: Samples, places: np.ndarray, numbers: dict[str, np.ndarray], outside: Any,
-               with_gradients: bool) -> tuple[dict, dict, np.ndarray]:
+               with_gradients: bool, nearest: Collection[str] = ()) -> tuple[dict, dict, np.ndarray]:
         """Values, gradients, and kinds of places."""
         options = make_probe_options(self._values["Interpolation"], outside)
         with samples._in_call(None):
-            return samples._probed(places, numbers, options, with_gradients, part(self._advance, LOADED, 1.0))
+            return samples._probed(
+                places, numbers, options, with_gradients, part(self._advance, LOADED, 1.0), nearest=nearest)
 
-    def _describe_flat(self, kinds: np.ndarray, consequence: str) -> list[_library.Message]:
+    def _describe_flat(self, kinds: np.ndarray, consequence: str, warns_of_all: bool = False
+                       ) -> list[_library.Message]:
         flat = np.count_nonzero(kinds & _library.PLACE_FLAT)
         return [] if flat == 0 else [_library.Message(
             f"At {flat} of {len(kinds)} points the samples around are in a plane or on a line: {consequence}",
-            is_warning=False, cause="flat")]
+            is_warning=warns_of_all and flat == len(kinds), cause="flat")]
 
 
 @with_properties("ScatteredProbe")
-class vtkScatteredProbeFilter(Probing):
+class vtkScatteredProbeFilter(NearestArrays, Probing):
     """Interpolates scattered samples at the points of any data set: see the compiled class of this name."""
 
     SAMPLES_PORT = 1
@@ -128,15 +129,16 @@ class vtkScatteredProbeFilter(Probing):
         arrays = {name: array for name, array in arrays.items() if name not in own}
         blocks = [block for block in _datasets.leaves(output) if block.IsA("vtkDataSet")]
         places = [positions_of(as_numpy(_datasets.point_positions(block))) for block in blocks]
-        keeps_types = self._values["Interpolation"] == CONSTANTS["method"]["nearest"]
-        numbers = {name: readable(name, array.numbers.astype(np.float64) if keeps_types and array.data_type == DOUBLE
-                                  else array.numbers) for name, array in arrays.items()}
+        are_all = self._values["Interpolation"] == CONSTANTS["method"]["nearest"]
+        nearest = {name for name, array in arrays.items() if are_all or array.has_ids or name in self._nearest}
+        numbers = {name: readable(name, array.numbers.astype(np.float64) if array.data_type == DOUBLE
+                                  and name in nearest else array.numbers) for name, array in arrays.items()}
         strategy = self._values["NullPointsStrategy"]
         outside = {NULL_VALUE: self._values["NullValue"], CLOSEST_POINT: "nearest"}.get(strategy, math.nan)
         values, _, kinds = self._probe(
-            samples, np.concatenate(places) if places else np.empty((0, 3)), numbers, outside, False)
+            samples, np.concatenate(places) if places else np.empty((0, 3)), numbers, outside, False, nearest)
         are_null = (kinds & _library.PLACE_OUTSIDE) != 0
-        self._add(blocks, {name: (array, values[name], array.data_type if keeps_types else DOUBLE)
+        self._add(blocks, {name: (array, values[name], array.data_type if name in nearest else DOUBLE)
                            for name, array in arrays.items()}, are_null)
         is_lost = self._values["MarkBlankPointsAndCells"] or strategy != CLOSEST_POINT
         skipped = self._describe_skipped(samples, "There are no values. Connect samples with finite positions.",
@@ -149,8 +151,8 @@ class vtkScatteredProbeFilter(Probing):
                 *self._describe_flat(kinds, "values are those at the nearest point of it."),
                 *describe_left_out(own, "The output has an array of its own with this name. Rename that of the"
                                    " samples."),
-                *describe_left_out(left_out, "Only arrays of numbers are interpolated that all blocks have, with the"
-                                   " same components.")]
+                *describe_left_out(left_out, "Only arrays of numbers are kept that all blocks have, with the same"
+                                   " components.")]
 
     def _add(self, blocks: list[Any], results: dict[str, tuple[SharedArray, np.ndarray, int]], are_null: np.ndarray
              ) -> None:
@@ -188,7 +190,7 @@ def _describe_lacking(has_arrays: bool, are_null: np.ndarray) -> list[_library.M
     messages = []
     if not has_arrays:
         messages.append(_library.Message(
-            "The samples have no arrays of numbers, nor has the output. Load arrays in the reader.", is_warning=True,
+            "The samples have no arrays, nor has the output. Load arrays in the reader.", is_warning=True,
             cause="no arrays"))
     if len(are_null) and are_null.all():
         messages.append(_library.Message(

@@ -14,12 +14,13 @@ from ._option_types import SliceOptions
 from ._options import INTERPOLATIONS, make_slice_options, property_name
 from ._progress import part
 from ._slices import compute_slice
-from ._vtk_algorithm import LOADED, ContourValues, ScatteredAlgorithm, with_counts, with_properties
+from ._vtk_algorithm import (
+    LOADED, ContourValues, NearestArrays, ScatteredAlgorithm, with_counts, with_properties)
 
 
 @with_properties("ScatteredSlice")
 @with_counts
-class vtkScatteredSliceFilter(ContourValues, ScatteredAlgorithm):
+class vtkScatteredSliceFilter(NearestArrays, ContourValues, ScatteredAlgorithm):
     """Slices scattered samples by an implicit function: see the compiled class of this name."""
 
     COUNTS = ("Samples", "SkippedSamples", "ExtractedPoints")
@@ -56,7 +57,7 @@ class vtkScatteredSliceFilter(ContourValues, ScatteredAlgorithm):
         options.keep_tetrahedra = self._values["KeepTree"]
         made, messages = compute_slice(
             samples, cut, levels, options, None, [*INTERPOLATIONS.values()][self._values["Interpolation"]], None,
-            part(self._advance, LOADED, 1.0))
+            part(self._advance, LOADED, 1.0), [name for name in self._nearest if name in (samples._arrays or {})])
         return self._finish(samples, made, messages, output)
 
 

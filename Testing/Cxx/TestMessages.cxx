@@ -88,13 +88,6 @@ const std::vector<Case> cases{
       s.filter->SetValue(0, 300.0001);
     },
     { "300.0001", "300.00004" } },
-  { "an isovalue that is the least value",
-    [](Subject& s)
-    {
-      s.setValues([](vtkIdType i) { return 300.0 + 1e-5 * static_cast<double>(i % 5); });
-      s.filter->SetValue(0, 300.0);
-    },
-    { "greater than 300", "300.00004" } },
   { "all in gaps",
     [](Subject& s)
     {
@@ -141,6 +134,120 @@ TEST(Messages, EachCauseIsOneWarning)
       expectOneWarning(subject.filter, warned.words);
       const bool hasSurface = &warned == &cases.front(); // at one of its isovalues
       EXPECT_EQ(subject.filter->GetOutput()->GetNumberOfPoints() > 0, hasSurface);
+    }
+  }
+}
+
+/// Ranges of isovalues, and animations, begin and end at the ends of the values.
+TEST(Messages, EndsOfTheRangeAreNotesBesideASurface)
+{
+  const auto cloud = newCloud(1000);
+  const auto ends = distancesOf(cloud)->GetRange();
+  for (const std::size_t kind : { 0, 1 })
+  {
+    const auto least = bothFilters(cloud)[kind];
+    SCOPED_TRACE(least->GetClassName());
+    least->SetValue(0, ends[0]);
+    const auto warnings = watchMessages(least, vtkCommand::WarningEvent);
+    const auto notes = watchMessages(least, vtkCommand::MessageEvent);
+    least->Update();
+    ASSERT_EQ(warnings->count(), 1u);
+    expectContains(warnings->last(), ": no isosurface at ");
+    expectContains(warnings->last(), "Choose isovalues between ");
+    least->SetValue(0, 0.5);
+    least->Update();
+    EXPECT_EQ(notes->count(), 0u);
+    for (const double level : { ends[0], std::nextafter(ends[1], 9.0) })
+    {
+      least->SetValue(0, level); // of the frame after one with a surface
+      least->Update();
+    }
+    EXPECT_EQ(notes->count(), 1u);
+    EXPECT_EQ(warnings->count(), 2u) << "beyond the end";
+
+    const auto several = bothFilters(cloud)[kind];
+    const auto warningsOfSeveral = watchMessages(several, vtkCommand::WarningEvent);
+    const auto notesOfSeveral = watchMessages(several, vtkCommand::MessageEvent);
+    several->GenerateValues(11, ends[0], ends[1]);
+    several->Update();
+    EXPECT_EQ(warningsOfSeveral->count(), 0u);
+    ASSERT_EQ(notesOfSeveral->count(), 1u);
+    several->GenerateValues(11, 20.0, 30.0);
+    several->Update();
+    ASSERT_EQ(warningsOfSeveral->count(), 1u);
+    expectContains(warningsOfSeveral->last(), "\"distance\" is from ");
+    expectContains(warningsOfSeveral->last(), ": no isosurface at 20, 21, 22 and 8 more. Choose");
+  }
+}
+
+/// Those on vertical and on tilted lines, whose triangles end in gaps everywhere.
+TEST(Messages, SamplesOnLinesMakeDebris)
+{
+  const auto cloud = newCloud(2000);
+  move(cloud->GetPoints(),
+    [](const Vector& p)
+    {
+      const double x = std::floor(3.0 * p[0] + 3.0);
+      const double y = std::floor(3.0 * p[1] + 3.0);
+      const double tilt = 0.1 * std::sin(7.0 * x + 3.0 * y) * p[2];
+      return Vector{ x + 0.3 * std::sin(5.0 * x * y) + tilt, y + 0.3 * std::cos(3.0 * x + y),
+        p[2] };
+    });
+  setScalars(
+    cloud, [](const Vector& p) { return std::sin(2.0 * p[0]) + p[2]; }, "distance");
+  const auto filter = newFilter<Isosurface>(cloud, 0.4);
+  expectOneWarning(filter, { "No fit holds at ", "Samples along lines" });
+}
+
+TEST(Messages, PositionsThatFloatRoundsAreNamed)
+{
+  for (const std::size_t kind : { 0, 1 })
+  {
+    for (const bool isFar : { false, true })
+    {
+      const auto cloud = newCloud(2000);
+      move(cloud->GetPoints(),
+        [&](const Vector& p) {
+          return isFar ? Vector{ 2.0 * p[0] + 5e6, 2.0 * p[1] + 5e6, 2.0 * p[2] + 5e6 } : p;
+        });
+      const auto filter = bothFilters(cloud)[kind];
+      SCOPED_TRACE(filter->GetClassName());
+      if (!isFar)
+      {
+        EXPECT_TRUE(messagesOf(filter).empty());
+        continue;
+      }
+      expectOneWarning(
+        filter, { "Samples coincide at ", "float32", "double", "subtract an offset" });
+    }
+  }
+}
+
+TEST(Messages, SamplesAtOnePositionWithDifferentValuesAreCounted)
+{
+  for (const double difference : { 0.0, 0.1 })
+  {
+    const auto once = newCloud(1000);
+    const auto cloud = newCloud(2000);
+    for (vtkIdType i = 0; i < 2000; ++i)
+    {
+      cloud->GetPoints()->SetPoint(i, once->GetPoint(i % 1000));
+      distancesOf(cloud)->SetComponent(
+        i, 0, distancesOf(once)->GetComponent(i % 1000, 0) + (i < 1000 ? 0.0 : difference));
+    }
+    for (const auto& filter : bothFilters(cloud))
+    {
+      SCOPED_TRACE(filter->GetClassName());
+      const auto warnings = watchMessages(filter, vtkCommand::WarningEvent);
+      const auto notes = watchMessages(filter, vtkCommand::MessageEvent);
+      filter->Update();
+      EXPECT_EQ(warnings->count(), 0u);
+      ASSERT_EQ(notes->count(), difference > 0.0 ? 1u : 0u);
+      if (difference > 0.0)
+      {
+        const std::string points = std::to_string(filter->GetOutput()->GetNumberOfPoints());
+        expectContains(notes->last(), "next to " + points + " of " + points + " points");
+      }
     }
   }
 }
@@ -271,7 +378,8 @@ TEST(Messages, TrianglesAreTheRemedyWhereSplatsDoNotMeet)
       return Vector{ std::pow(p[0], 6), std::pow(p[1], 6), std::pow(p[2], 6) };
     });
   cloud->GetPoints()->Modified();
-  expectOne(messagesOf(filter), { "Splats", "Scattered Isosurface, or the option triangles." });
+  expectOne(
+    messagesOf(filter), { "Splats", "Extract triangles instead, as Scattered Isosurface does." });
   filter->SetComputeSplats(false);
   EXPECT_TRUE(messagesOf(filter).empty());
 }
@@ -308,7 +416,7 @@ TEST(Messages, CauseAndFiguresComeFirst)
 {
   const Words warnings = messagesOf(newFilter(newCloud(500), 9.0));
   ASSERT_EQ(warnings.size(), 1u);
-  const std::size_t begin = warnings.front().find("No isosurface");
+  const std::size_t begin = warnings.front().find("\"distance\" is from");
   ASSERT_NE(begin, std::string::npos);
   EXPECT_LE(warnings.front().find("Choose") - begin, 72u);
 }

@@ -292,7 +292,7 @@ TEST(ProbeFilters, MessagesNameTheCause)
   filter->SetSourceData(bare);
   EXPECT_EQ(
     namesOf(updated(filter)->GetPointData()), std::vector<std::string>{ "vtkValidPointMask" });
-  expectContains(warnings->last(), "no arrays of numbers");
+  expectContains(warnings->last(), "have no arrays");
 
   expectError(probeOf(vtkSmartPointer<vtkPolyData>::New(), places), "no points");
   expectError(probeOf(blocksOf({ vtkSmartPointer<vtkTable>::New() }), places), "no points");

@@ -268,7 +268,7 @@ TEST(Library, EachReasonOfAnEmptySurfaceHasACode)
   EXPECT_EQ(codeOf(few, (few.values[0] + few.values[1]) / 2.0), ISOPOINT_MESSAGE_TOO_FEW_SAMPLES);
   Cloud cloud;
   const double greatest = *std::max_element(cloud.values.begin(), cloud.values.end());
-  EXPECT_EQ(codeOf(cloud, greatest), ISOPOINT_MESSAGE_ISOVALUE_OUTSIDE);
+  EXPECT_EQ(codeOf(cloud, greatest), ISOPOINT_MESSAGE_ISOVALUE_AT_END);
   for (std::size_t i = 2; i < cloud.positions.size(); i += 3)
   {
     cloud.positions[i] = 0.0;
@@ -447,7 +447,7 @@ TEST(Library, MessagesAreJoined)
   ASSERT_EQ(isopoint_join_messages(joined.get(), surfaces[1].get()), ISOPOINT_OK);
   EXPECT_EQ(isopoint_get_dropped_count(joined.get()), dropped);
   const std::string outside = isopoint_get_message(joined.get(), 0, nullptr);
-  expectContains(outside, "No isosurface at 99: ");
+  expectContains(outside, ": no isosurface at 99. ");
   expectContains(isopoint_get_message(joined.get(), 1, nullptr), "Skipped 2 of 10000");
   EXPECT_EQ(isopoint_get_message(joined.get(), 2, nullptr), nullptr);
   const Surface other = Extractor(Cloud()).extract({ 0.5 });

@@ -205,6 +205,62 @@ TEST(Library, TheNearestSampleKeepsItsType)
   EXPECT_GE(found(ISOPOINT_PROBE_OUTSIDE_EXTRAPOLATE, NAN), numbers[0]);
 }
 
+/// Also where the same numbers leave it as double, and from neighborhoods. Excluded samples do not
+/// widen it.
+TEST(Library, IntegersStayWithinTheRangeOfTheirSamples)
+{
+  const Cloud cloud;
+  std::vector<std::int32_t> numbers;
+  std::vector<double> reals;
+  std::vector<std::uint8_t> excluded;
+  for (std::size_t i = 0; i < cloud.values.size(); ++i)
+  {
+    const double x = cloud.positions[3 * i];
+    numbers.push_back(x < 0.0 ? -100 : 100);
+    reals.push_back(numbers.back());
+    excluded.push_back(i % 7 == 0 ? 1 : 0);
+    if (excluded.back() != 0)
+    {
+      numbers.back() = 1000000;
+    }
+  }
+  const Extractor extractor;
+  const isopoint_array positions = cloud.positionArray();
+  const isopoint_array areExcluded = arrayOf(excluded, ISOPOINT_UINT8, 1);
+  ASSERT_EQ(isopoint_set_samples(extractor.get(), &positions, nullptr, &areExcluded), ISOPOINT_OK);
+  std::vector<double> at;
+  for (int i = 0; i < 60; ++i)
+  {
+    at.insert(at.end(), { -0.3 + 0.01 * i, 0.05, 0.02 });
+  }
+  const isopoint_array places = arrayOf(at, ISOPOINT_DOUBLE, 3);
+  const std::array<isopoint_array, 2> arrays{ arrayOf(numbers, ISOPOINT_INT32, 1),
+    arrayOf(reals, ISOPOINT_DOUBLE, 1) };
+  const isopoint_probe_options options = probeOptions(ISOPOINT_PROBE_CUBIC);
+  std::vector<double> integers(60);
+  std::vector<double> doubles(60);
+  const std::array<isopoint_probe_result, 2> results{ resultIn(integers), resultIn(doubles) };
+  ASSERT_EQ(isopoint_probe(
+              extractor.get(), &places, arrays.data(), 2, &options, results.data(), nullptr, 0),
+    ISOPOINT_OK);
+  std::size_t beyond = 0;
+  for (std::size_t i = 0; i < integers.size(); ++i)
+  {
+    EXPECT_EQ(integers[i], std::clamp(doubles[i], -100.0, 100.0));
+    beyond += std::abs(doubles[i]) > 100.0 ? 1 : 0;
+  }
+  EXPECT_GT(beyond, 0u);
+  isopoint_neighborhoods* neighborhoods = nullptr;
+  ASSERT_EQ(
+    isopoint_find_neighborhoods(extractor.get(), &places, &options, &neighborhoods), ISOPOINT_OK);
+  std::vector<double> again(60);
+  const isopoint_probe_result result = resultIn(again);
+  ASSERT_EQ(isopoint_probe_neighborhoods(neighborhoods, arrays.data(), 1, &result, nullptr, 0),
+    ISOPOINT_OK);
+  EXPECT_EQ(again, integers);
+  isopoint_destroy_neighborhoods(neighborhoods);
+}
+
 TEST(Library, InvalidProbesAreErrors)
 {
   const Cloud cloud(100);

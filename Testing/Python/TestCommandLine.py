@@ -251,7 +251,7 @@ class CommandLine(unittest.TestCase):
         cases = [
             ("contour missing.csv T 0.3", 1, "missing.csv: No such file"), ("contour . T 0.3", 1, "Is a directory"),
             ("contour a.csv q 0.3", 1, 'no array of numbers named "q": there are T$'),
-            ("contour a.csv T 9", 1, r"No isosurface at 9: .*less than 0\."),
+            ("contour a.csv T 9", 1, r"no isosurface at 9\. .*between 0\."),
             ("contour a.csv T nan", 1, "not a number"),
             ("contour a.csv T 0.3 -o missing/a.ply", 1, "no folder .*: make it"),
             ("contour a.csv T 0.3 -o a.foo", 2, r"format of a.foo is unknown: there are .ply, .*pip install"),

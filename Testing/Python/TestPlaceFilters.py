@@ -15,7 +15,7 @@ from filter_testing import (
 from scatteredisopoints import _vtk
 from vtk_data import (
     assert_same, blocks_of, cloud_of, leaves_of, named, observed, positions_in, set_all)
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonCore import VTK_DOUBLE, vtkBitArray, vtkIdList
 from vtkmodules.vtkCommonDataModel import (
@@ -133,18 +133,88 @@ class PlaceFilters(FilterTests):
             positions = positions_in(block)
             block.GetPointData().SetScalars(named("several types", positions[:, 0].astype(("f4", "f8", "f8")[i])))
             block.GetPointData().SetPedigreeIds(named("ids", np.arange(len(positions))))
-            add(block, POINTS, "names", len(positions) * ["name"])
+            add(block, POINTS, "names", len(positions) * ["name"] if i else np.arange(len(positions)))
             add(block, POINTS, "short", np.zeros(2))
             add(block, POINTS, "shapes", positions[:, :1 + i % 2])
             if i == 1:
                 add(block, POINTS, "somewhere", positions[:, 0])
         filter_ = self.probe(blocks_of(*blocks), places)
         self.assert_one(self.texts_of(filter_, "MessageEvent"), 'Left out of the output: "names", "shapes", "short",'
-                        ' "somewhere". Only arrays of numbers are interpolated that all blocks have')
+                        ' "somewhere". Only arrays of numbers')
         attributes = filter_.GetOutput().GetPointData()
-        self.assertEqual(names_in(attributes), ["f", "several types", "vtkValidPointMask"])
+        self.assertEqual(names_in(attributes), ["f", "several types", "ids", "vtkValidPointMask"])
+        self.assertEqual(attributes.GetPedigreeIds().GetName(), "ids")
         self.assertEqual(attributes.GetScalars().GetName(), "several types")
         self.assertEqual(self.texts_of(filter_, "MessageEvent"), [], "not repeated while it lasts")
+
+    def test_nearest_arrays_and_the_range_of_integers(self):
+        """Ids, text and listed arrays are those of the nearest sample. Other integers stay within the range of the
+        samples, which numbers without a pattern leave, in slices rounded."""
+        random, count = np.random.default_rng(3), 1500
+        samples = cloud(count)
+        attributes, positions = samples.GetPointData(), positions_in(samples)
+        ids = numpy_to_vtkIdTypeArray(2**60 + random.permutation(count), deep=True)  # not held by double
+        ids.SetName("of type")
+        attributes.AddArray(ids)
+        attributes.SetGlobalIds(named("global", random.permutation(count)))
+        attributes.SetPedigreeIds(named("pedigree", random.permutation(count).astype(np.int32)))
+        steps = np.sign(positions) * np.rint(1000 * np.abs(positions)**0.2)
+        for name, numbers in (("material", random.integers(0, 9, (count, 2))), ("real", random.random(count)),
+                              ("text", [f"sample {i}" for i in range(count)]), ("lines", steps[:, 0].astype(np.int16)),
+                              ("pairs", steps[:, 1:].astype(np.int64)), ("as real", steps[:, 0])):
+            attributes.AddArray(named(name, numbers))
+        # What is hidden takes no part, nor does it widen the range.
+        with_ghosts(samples, POINTS, [0, 0, 0, 0, HIDDEN_POINT])
+        used = np.arange(count) % 5 < 4
+        values_in(samples, "lines")[~used] = 32000
+        copied = ["of type", "global", "pedigree", "material", "real"]
+        text = [] if self.differs("String arrays are left out.") else ["text"]
+        filters = [self.new(name, samples, Interpolation=interpolation) for name, interpolation in (
+            ("Line", 0), ("Line", 1), ("Grid", 0), ("Slice", 0), ("Slice", 1), ("Slice", 2))]
+        filters.append(self.probe(samples, some_places(), NullPointsStrategy=2))
+        spheres = self.new("Slice", samples, CutFunction=set_all(vtkSphere(), Radius=0.6))
+        is_beyond = False
+        for filter_ in (*filters, spheres):
+            self.assertEqual(filter_.GetNumberOfNearestArrays(), 0)
+            for name in ("material", "real", "material", "nowhere"):
+                filter_.AddNearestArray(name)
+            self.assertEqual([filter_.GetNearestArray(i) for i in range(-1, 4)],
+                             [None, "material", "real", "nowhere", None])
+            if "Line" in filter_.GetClassName() or "Line" in type(filter_).__name__:
+                set_all(filter_, Point1=(-0.8, -0.8, -0.8), Point2=(0.8, 0.7, 0.9))
+            output = self.output(filter_)
+            found, places = output.GetPointData(), positions_in(output)
+            self.assertGreater(len(places), 100)
+            distances = np.where(used, np.linalg.norm(places[:, None] - positions, axis=-1), np.inf)
+            nearest = distances.argmin(axis=1)
+            is_slice = filter_.GetNumberOfInputPorts() == 1 and hasattr(filter_, "SetCutFunction")
+            for name in copied:
+                array = found.GetArray(name)
+                self.assertEqual(array.GetDataType(), attributes.GetArray(name).GetDataType(), name)
+                np.testing.assert_array_equal(vtk_to_numpy(array), values_in(samples, name)[nearest])
+            for name in text:
+                array = found.GetAbstractArray(name)
+                self.assertEqual([array.GetValue(i) for i in range(len(places))], [f"sample {i}" for i in nearest])
+            self.assertIsNone(found.GetGlobalIds())
+            self.assertEqual(found.GetPedigreeIds().GetName(), "pedigree")
+            for name in ("lines", "pairs"):
+                array, numbers = vtk_to_numpy(found.GetArray(name)), values_in(samples, name)[used]
+                self.assertEqual(found.GetArray(name).GetDataType(),
+                                 attributes.GetArray(name).GetDataType() if is_slice else VTK_DOUBLE)
+                self.assertTrue((array >= numbers.min(axis=0)).all() and (array <= numbers.max(axis=0)).all(), name)
+            real, limited = vtk_to_numpy(found.GetArray("as real")), steps[used, 0]
+            beyond = (real < limited.min()) | (real > limited.max())
+            if is_slice and filter_.GetInterpolation() != 2:
+                np.testing.assert_allclose(vtk_to_numpy(found.GetArray("lines"))[~beyond], real[~beyond], atol=20)
+            is_beyond |= beyond.any()
+            filter_.ClearNearestArrays()
+            self.assertEqual(filter_.GetNumberOfNearestArrays(), 0)
+        self.assertTrue(is_beyond, "no number would leave the range")
+        probed = self.probe(samples, cloud_of([[9.0, 9, 9]]))
+        found = self.output(probed).GetPointData()
+        self.assertEqual(found.GetArray("of type").GetTuple1(0), 0)
+        for name in text:
+            self.assertEqual(found.GetAbstractArray(name).GetValue(0), "")
 
     # Places
 
@@ -545,11 +615,12 @@ class PlaceFilters(FilterTests):
         self.assertEqual(self.texts_of(self.probe(samples, away, NullPointsStrategy=2)), [])
         bare = cloud_of(positions_in(samples))
         filter_ = self.probe(bare, places)
-        self.assert_one(self.texts_of(filter_), "no arrays of numbers")
+        self.assert_one(self.texts_of(filter_), "have no arrays")
         self.assertEqual(names_in(filter_.GetOutput().GetPointData()), ["vtkValidPointMask"])
         flat = cloud_of(positions_in(samples) * [1, 1, 0], values_in(samples))
         self.assert_one(self.texts_of(self.probe(flat, places), "MessageEvent"), "At 2 of 2 points", "in a plane")
-        self.assert_one(self.texts_of(self.new("Gradient", flat), "MessageEvent"), "gradients have no part across")
+        for lacking in flat, cloud_of([[1.0, 2.0, 3.0]], [4.0]):
+            self.assert_one(self.texts_of(self.new("Gradient", lacking)), "gradients have no part across")
         nowhere = cloud_of(np.full((5, 3), np.nan), np.zeros(5))
         self.assert_one(self.texts_of(self.probe(nowhere, places)),
                         "Skipped 5 of 5 samples: not finite. There are no values.")

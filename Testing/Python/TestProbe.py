@@ -68,6 +68,37 @@ class Values(unittest.TestCase):
                 warnings.simplefilter("ignore")  # of the masked entry
                 self.assertEqual(probe(POSITIONS, array, PLACES, method="NEAREST").dtype, expected)
 
+    def test_arrays_that_take_the_nearest_value(self):
+        nearest = np.linalg.norm(PLACES[:, None] - POSITIONS, axis=-1).argmin(axis=1)
+        material = RANDOM.integers(0, 99, len(POSITIONS))
+        arrays = {"x": POSITIONS[:, 0], "material": material}
+        values, gradients = probe(POSITIONS, arrays, PLACES, gradient=True, nearest_arrays=["material"])
+        self.assertEqual(values["material"].dtype, material.dtype)
+        np.testing.assert_array_equal(values["material"], material[nearest])
+        np.testing.assert_array_equal(gradients["material"], np.zeros((len(PLACES), 3)))
+        alone = probe(POSITIONS, arrays["x"], PLACES, gradient=True)
+        self.assertEqual((values["x"].tobytes(), gradients["x"].tobytes()), tuple(each.tobytes() for each in alone))
+        samples = Samples(POSITIONS, material)
+        np.testing.assert_array_equal(samples.probe(PLACES, nearest_arrays="values"), material[nearest])
+        with self.assertRaisesRegex(ValueError, "nearest_arrays cannot have 'materials': did you mean material?"):
+            probe(POSITIONS, arrays, PLACES, nearest_arrays=["materials"])
+
+    def test_integers_stay_within_the_range_of_the_samples(self):
+        """By all methods, also where fits of the same numbers would leave it."""
+        numbers = np.rint(100 * np.sign(POSITIONS - 0.5) * np.abs(POSITIONS - 0.5)**0.1)
+        is_beyond = False
+        for method in ("blend", "cubic", "quadratic", "affine"):
+            free = probe(POSITIONS, numbers[:, :2], PLACES, method=method, outside=None)
+            for kind in ("i1", "i2", "i4", "i8"):
+                found = probe(POSITIONS, numbers[:, :2].astype(kind), PLACES, method=method, outside=None)
+                self.assertEqual(found.dtype, float)
+                least, greatest = numbers[:, :2].min(axis=0), numbers[:, :2].max(axis=0)
+                self.assertTrue((found >= least).all() and (found <= greatest).all())
+                if method != "blend":  # whose weights know of the rounding
+                    np.testing.assert_array_equal(found, free.clip(least, greatest))
+            is_beyond |= bool((free < least).any() or (free > greatest).any())
+        self.assertTrue(is_beyond)
+
     def test_shapes_and_types(self):
         count, places = len(POSITIONS), len(PLACES)
         for shape in ((), (1,), (4,), (3, 3)):

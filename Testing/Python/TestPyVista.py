@@ -319,7 +319,7 @@ class Probing(Warned):
         data.clear_data()
         data["plane"], data["place"] = self.plane(data.points), data.points
         data["number"] = np.arange(5000, dtype=np.int32)
-        data.GetPointData().SetPedigreeIds(pv.convert_array(np.arange(5000), "ids"))  # no numbers to interpolate
+        data.GetPointData().SetPedigreeIds(pv.convert_array(np.arange(5000), "ids"))
         return data
 
     def test_points_and_data_sets(self):
@@ -331,7 +331,9 @@ class Probing(Warned):
             self.assertIs(type(found), kind)
             np.testing.assert_allclose(found["plane"], self.plane(found.points), atol=1e-6)
             np.testing.assert_allclose(found["place"], found.points, atol=1e-6)
-            self.assertEqual(set(found.array_names) - {"own"}, {"plane", "place", "number"})
+            self.assertEqual(set(found.array_names) - {"own"}, {"plane", "place", "number", "ids"})
+            nearest = np.linalg.norm(found.points[:, None] - data.points, axis=-1).argmin(axis=1)
+            np.testing.assert_array_equal(found["ids"], nearest)
         self.assertIn("own", found.array_names)
         self.assertEqual(image.array_names, ["own"])
         found = data.scattered.probe(inside, ["place", "plane"], gradient=True, outside=None)
@@ -361,8 +363,8 @@ class Probing(Warned):
         other["plane"], other["own"] = other["plane"].astype("f4"), other["plane"]
         blocks, where = pv.MultiBlock([data, other]), np.array([[0.5, 0.5, 0.5], [1.5, 0.5, 0.5]])
         text = '^Left out are "plane", "number", "own": not all blocks have these arrays with the same type'
-        for call, expected in ((lambda: blocks.scattered.probe(where), {"place"}),
-                               (lambda: blocks.scattered.sample_over_line(*where, 5), {"place", "Distance"}),
+        for call, expected in ((lambda: blocks.scattered.probe(where), {"place", "ids"}),
+                               (lambda: blocks.scattered.sample_over_line(*where, 5), {"place", "ids", "Distance"}),
                                (lambda: blocks.scattered.slice("z"), {"place", "ids"}),
                                (lambda: slice_samples(blocks, normal="z").polydata, {"place", "ids"})):
             (message,), found = self.caught(call)

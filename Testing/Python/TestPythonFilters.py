@@ -142,6 +142,8 @@ class PythonFilters(unittest.TestCase):
                 (theirs, expected), (ours, texts) = found
                 with self.subTest(number=number, name=name, data=data.GetClassName(), options=options[name]):
                     assert_same(self, ours.GetOutputDataObject(0), theirs.GetOutputDataObject(0))
+                    texts["MessageEvent"] = [text for text in texts["MessageEvent"]  # string arrays are left out
+                                             if not text.startswith('Left out of the output: "names".')]
                     self.assertEqual(texts, expected)
                     for count in ours.COUNTS:
                         self.assertEqual(*(getattr(each, "GetNumberOf" + count)() for each in (ours, theirs)), count)

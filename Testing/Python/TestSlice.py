@@ -153,6 +153,15 @@ class KeptSamples(unittest.TestCase):
                                   interpolation="nearest").arrays
             self.assertEqual(found["material"].dtype, material.dtype)
             self.assertEqual(found["material"].tolist(), np.where(found["place"][:, 0] < 0.5, 3, large).tolist())
+            for interpolation in ("fits", "linear"):
+                listed = slice_samples(POSITIONS, arrays={"material": material, "place": POSITIONS}, function=function,
+                                       interpolation=interpolation, nearest_arrays=["material"]).arrays
+                self.assertEqual(listed["material"].tolist(), found["material"].tolist())
+            number = np.random.default_rng(4).integers(0, 10785, len(POSITIONS))
+            for interpolation in ("fits", "linear"):
+                found = slice_samples(POSITIONS, arrays=number, function=function, interpolation=interpolation)
+                self.assertEqual(found.arrays["values"].dtype, number.dtype)
+                self.assertTrue(0 <= found.arrays["values"].min() < found.arrays["values"].max() <= number.max())
 
 
 def only_at_samples(places):
