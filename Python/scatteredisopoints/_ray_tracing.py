@@ -66,7 +66,7 @@ def ray_trace(
     TypeError, ValueError
         If the scene is none of these, or a number is out of its range.
     OSError
-        If the file cannot be written. An earlier one stays after any error.
+        If the file cannot be written. An earlier one stays.
     """
     renderer, own_size = _renderer_of(scene)
     width, height = (int(each) for each in (own_size if size is None else size))
@@ -248,8 +248,8 @@ def _colors_of(mapper: Any, mesh: Any) -> tuple[Optional[np.ndarray], str]:
     copy.SetInterpolateScalarsBeforeMapping(False)
     source = reference(0)
     mapped = copy.MapScalars(mesh, 1.0, source)
-    is_usable = mapped is not None and source != 2  # which are field data
-    return (vtk_to_numpy(mapped)[:, :3] / 255.0 if is_usable else None), "face_color" if source else "vertex_color"
+    colors = None if mapped is None or source == 2 else vtk_to_numpy(mapped)[:, :3] / 255.0  # 2: of field data
+    return colors, "face_color" if source else "vertex_color"
 
 
 def _sensor_of(mitsuba: Any, renderer: Any, frame: _Frame, size: tuple[int, int]) -> dict[str, Any]:
@@ -260,7 +260,8 @@ def _sensor_of(mitsuba: Any, renderer: Any, frame: _Frame, size: tuple[int, int]
                   "fov_axis": "x" if camera.GetUseHorizontalViewAngle() else "y"}
     if camera.GetParallelProjection():
         half = camera.GetParallelScale() * frame.scale * size[0] / size[1]
-        projection, transform = {"type": "orthographic"}, transform @ mitsuba.ScalarTransform4f().scale(half)
+        projection = {"type": "orthographic"}
+        transform = transform @ mitsuba.ScalarTransform4f().scale([half, half, 1.0])
     return {
         **projection, "to_world": transform, "far_clip": 10.0 * _FAR,
         "near_clip": max(camera.GetClippingRange()[0] * frame.scale, 1e-3),
