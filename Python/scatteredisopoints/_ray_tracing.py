@@ -15,7 +15,7 @@ from ._writing import file_to_write
 
 _DIAGONAL = 100.0  # of the surfaces in Mitsuba's scene, which offsets rays by about 1e-4 beside such lengths
 _FAR = 100.0 * _DIAGONAL  # the distance of lights without a position
-_AT_ONCE = 4  # samples of a pixel that are spread evenly over lights and directions
+_AT_ONCE = 16  # samples of a pixel that are spread evenly over lights and directions
 _LONGEST_PATH = 10  # pieces of a path
 _FLAT, _PBR, _SURFACE = 0, 3, 2  # of vtkProperty
 
@@ -44,7 +44,7 @@ def ray_trace(
     path
         Name of a PNG file for the picture, or None.
     samples
-        Paths of light through each pixel, at least 1, rounded up to a multiple of 4. More give less noise.
+        Paths of light through each pixel, at least 1, rounded up to a multiple of 16. More give less noise.
     size
         Width and height in pixels. None: those of the scene.
     light_angle
@@ -119,16 +119,15 @@ def _renderer_of(scene: Any) -> tuple[Any, tuple[int, int]]:
 def _traced(mitsuba: Any, renderer: Any, size: tuple[int, int], samples: int, light_angle: float,
             ambient_light: float, progress: Progress) -> np.ndarray:
     frame = _frame_of(renderer)
-    lights = list(_lights_of(mitsuba, renderer, frame, light_angle, ambient_light))
+    lights = [_environment_of(mitsuba, renderer), *_lights_of(mitsuba, renderer, frame, light_angle, ambient_light)]
     meshes = _meshes_of(mitsuba, renderer, frame, ambient_light)
     scene = mitsuba.load_dict({
         "type": "scene", "sensor": _sensor_of(mitsuba, renderer, frame, size),
         # The background is drawn behind the picture, as VTK draws it.
         "integrator": {"type": "path", "max_depth": _LONGEST_PATH, "hide_emitters": True},
-        "environment": _environment_of(mitsuba, renderer),
         **{f"part {i}": part for i, part in enumerate([*lights, *meshes])}})
-    # A path that meets a small light by chance would leave a speck. Each path asks one light for all of them.
-    limit = max(1.0, (len(lights) + 1) / _AT_ONCE)
+    # The brightness of a white surface by all lights: a path that meets a small one by chance would leave a speck.
+    limit = max(1.0, ambient_light * sum(each.get("light", each)["sampling_weight"] for each in lights))
     passes = -(-samples // _AT_ONCE)
     total = np.zeros((size[1], size[0], 4))
     with shown_progress(progress, "Tracing rays") as report:
@@ -288,7 +287,8 @@ def _environment_of(mitsuba: Any, renderer: Any) -> dict[str, Any]:
     rows = _background_of(renderer, np.linspace(1.0, 0.0, 65)).astype(np.float32)
     axes = np.eye(4)
     axes[:3, :3] = _view_axes(renderer.GetActiveCamera()).T
-    return {"type": "envmap", "bitmap": mitsuba.Bitmap(np.repeat(rows[:, None], 4, axis=1).copy()),
+    return {"type": "envmap", "sampling_weight": float(max(rows.mean(axis=0).max(), 0.01)),
+            "bitmap": mitsuba.Bitmap(np.repeat(rows[:, None], 4, axis=1).copy()),
             "to_world": mitsuba.ScalarTransform4f(axes)}
 
 
@@ -305,18 +305,18 @@ def _lights_of(mitsuba: Any, renderer: Any, frame: _Frame, angle: float, ambient
         distance = float(np.linalg.norm(position - target))
         if not light.GetSwitch() or not color.max() > 0.0 or distance == 0.0:
             continue
-        back = (position - target) / distance
+        back, weight = (position - target) / distance, float(color.max())
         if not light.GetPositional():
             position, target, distance = back * _FAR, np.zeros(3), _FAR
         transform = mitsuba.ScalarTransform4f().look_at(
             list(position), list(target), [1.0, 0.0, 0.0] if abs(back[0]) < 0.7 else [0.0, 1.0, 0.0])
         if light.GetPositional() and light.GetConeAngle() < 90.0:
             yield {"type": "spot", "to_world": transform, "intensity": _rgb(math.pi * distance**2 * color),
-                   "cutoff_angle": light.GetConeAngle()}
+                   "cutoff_angle": light.GetConeAngle(), "sampling_weight": weight}
         else:
             yield {"type": "sphere" if light.GetPositional() else "disk",
                    "to_world": transform @ mitsuba.ScalarTransform4f().scale(distance * extent),
-                   "light": {"type": "area", "radiance": _rgb(color / extent**2)}}
+                   "light": {"type": "area", "radiance": _rgb(color / extent**2), "sampling_weight": weight}}
 
 
 def _tinted(used: Any, ambient: float, colors: Any) -> np.ndarray:
