@@ -138,19 +138,6 @@ def add_black(album):
     samples = torus_samples()
     album.add("black", scaled(triangles(samples), -1, 1, 1), triangles(scaled(samples, -1, 1, 1)))
 
-    from scatteredisopoints import ray_trace
-
-    surface, lit = points(samples), points(samples)
-
-    def draw(view, path, shown):
-        view.UseLight = 0
-        light = simple.AddLight(view=view)
-        light.Position, light.FocalPoint = [3, 1, 1], [0, 0, 0]
-        simple.Render(view)
-        ray_trace(view, path, samples=64, size=SIZE, ambient_light=0.3 if shown is lit else 0.0)
-
-    album.add("unlit", surface, lit, draw=draw)
-
 
 def add_noise(album):
     positions = uniform(60000)

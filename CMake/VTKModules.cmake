@@ -1,17 +1,4 @@
-# Everything that needs VTK or ParaView, except the Python package: modules, ray tracer and plugin.
-
-# Ray tracing needs Embree 4 or 3.
-find_package(embree 4 QUIET)
-if (NOT embree_FOUND)
-  find_package(embree 3 QUIET)
-endif ()
-if (embree_FOUND)
-  string(REGEX MATCH "^[0-9]+" SCATTEREDISOPOINTS_EMBREE_VERSION "${embree_VERSION}")
-  set(SCATTEREDISOPOINTS_EMBREE embree)
-  message(STATUS "Rays are traced with Embree ${embree_VERSION}")
-else ()
-  message(STATUS "The ray tracer is not built: Embree 3 or 4 is missing")
-endif ()
+# Everything that needs VTK or ParaView, except the Python package: modules and plugin.
 
 set(python_modules
   ScatteredIsopoints::vtkScatteredIsopointFilters
@@ -19,22 +6,10 @@ set(python_modules
 set(module_files
   "${CMAKE_CURRENT_SOURCE_DIR}/Filters/vtk.module"
   "${CMAKE_CURRENT_SOURCE_DIR}/Rendering/vtk.module")
-if (embree_FOUND)
-  list(APPEND python_modules ScatteredIsopoints::vtkScatteredIsopointRayTracing)
-  list(APPEND module_files "${CMAKE_CURRENT_SOURCE_DIR}/RayTracing/vtk.module")
-endif ()
 set(plugin_modules ${python_modules})
 if (SCATTEREDISOPOINTS_USE_PARAVIEW)
   list(APPEND plugin_modules ScatteredIsopoints::vtkScatteredIsopointRepresentations)
   list(APPEND module_files "${CMAKE_CURRENT_SOURCE_DIR}/Plugin/Representation/vtk.module")
-  if (embree_FOUND)
-    list(APPEND plugin_modules ScatteredIsopoints::vtkScatteredIsopointExporters)
-    list(APPEND module_files "${CMAKE_CURRENT_SOURCE_DIR}/Plugin/Exporter/vtk.module")
-  endif ()
-endif ()
-
-if (embree_FOUND)
-  add_subdirectory(RayTracing/Tracer)
 endif ()
 
 vtk_module_scan(

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # check.sh [format|lint|documents|spelling|fix]...: checks the format of C++ files (clang-format 14), the
-# sources of Core, Filters, Library, Rendering, RayTracing and Plugin (clang-tidy 14, preset release), links,
+# sources of Core, Filters, Library, Rendering and Plugin (clang-tidy 14, preset release), links,
 # paths, commands and figures in the documents, and the spelling of all files (codespell). Default: all four.
 # fix formats in place.
 set -euo pipefail
@@ -36,7 +36,7 @@ lint()
   tool=$(version_14 clang-tidy)
   Utilities/prepare.sh release # generated headers
   grep -oP '"file": "\K[^"]+' build/release/compile_commands.json |
-    grep -E "^$PWD/(build/release/Core|Core|Filters|Library|Plugin|RayTracing|Rendering)/" |
+    grep -E "^$PWD/(build/release/Core|Core|Filters|Library|Plugin|Rendering)/" |
     xargs -d '\n' -n 1 -P "$(nproc)" "$tool" --quiet -p build/release 2>&1 |
     sed -E '/warnings? .*generated\.$/d'
 }

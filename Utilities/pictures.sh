@@ -44,17 +44,13 @@ for name in amr_levels csv_table droplets filters heat in_situ_simulation partic
   vortices; do
   draw pvbatch "$root/Examples/$name.py"
 done
-for name in ray_traced_spheres sph_snapshot; do
-  draw /usr/bin/python3 "$root/Examples/$name.py"
-done
+draw /usr/bin/python3 "$root/Examples/sph_snapshot.py"
 rm isosurface.png
 mv comparison.png "$root/docs/"
 mv ./*.png "$root/docs/examples/"
 if [[ $data ]]; then
   unset PV_PLUGIN_PATH # these load the plugin themselves, or need none
   draw pvbatch "$root/Benchmark/triangle_pictures.py" "$plugin" "$data" "$root/docs/triangles.png"
-  draw /usr/bin/python3 "$root/Benchmark/ray_traced_engine.py" "$data/volumes/engine_256x256x128_uint8.vti"
-  mv ray_traced_engine.png "$root/docs/examples/"
 fi
 echo "made:"
 git -C "$root" diff --name-only -- '*.png' | sed 's/^/  /'

@@ -4,8 +4,8 @@
 contour() takes and returns NumPy arrays, or data sets of VTK and PyVista; body() gives the closed surface of all
 samples, slice_samples() gives slices, and probe() and gradient() interpolate samples at places; Samples keeps the tree
 between calls. All only need NumPy.
-load_plugin() serves scripts of ParaView. With the project's VTK modules, the package also has their classes and, if
-these were built with Embree, ray_trace().
+load_plugin() serves scripts of ParaView, ray_trace() makes ray-traced pictures by Mitsuba. With the project's VTK
+modules, the package also has their classes.
 """
 
 from __future__ import annotations
@@ -25,26 +25,25 @@ from ._functions import slice_samples as slice_samples
 from ._interpolator import Interpolator as Interpolator
 from ._isosurface import Isosurface as Isosurface
 from ._measures import Piece as Piece
+from ._ray_tracing import ray_trace as ray_trace
 from ._samples import Samples as Samples
 from .plugin import load_plugin as load_plugin
 
 __version__ = _library.version().decode()
 
 # What needs VTK, and the modules that have it. Each may be missing, and is imported on demand.
-_COMPILED = ("vtkScatteredIsopointFilters", "vtkScatteredIsopointRendering",
-             "vtkScatteredIsopointRayTracing")
+_COMPILED = ("vtkScatteredIsopointFilters", "vtkScatteredIsopointRendering")
 _MODULES = {
-    "ray_trace": ("ray_tracing",),
     **dict.fromkeys(("vtkIsopointSplatPolygons", "vtkScatteredBodyFilter", "vtkScatteredGradientFilter",
                      "vtkScatteredGridFilter", "vtkScatteredIsopointFilter", "vtkScatteredIsosurfaceFilter",
                      "vtkScatteredLineFilter", "vtkScatteredProbeFilter", "vtkScatteredSliceFilter"),
                     (*_COMPILED, "_vtk")),
-    **dict.fromkeys(("vtkIsopointPolygonMapper", "vtkIsopointRayTracer", "vtkIsopointSplatMapper",
+    **dict.fromkeys(("vtkIsopointPolygonMapper", "vtkIsopointSplatMapper",
                      "vtkScatteredAlgorithm", "vtkScatteredContourFilter", "vtkScatteredSurfaceFilter"), _COMPILED)}
 
 if TYPE_CHECKING:
     _any: Any = None
-    ray_trace = vtkIsopointPolygonMapper = vtkIsopointRayTracer = vtkIsopointSplatMapper = _any
+    vtkIsopointPolygonMapper = vtkIsopointSplatMapper = _any
     vtkIsopointSplatPolygons = vtkScatteredAlgorithm = vtkScatteredBodyFilter = vtkScatteredContourFilter = _any
     vtkScatteredGradientFilter = vtkScatteredGridFilter = vtkScatteredIsopointFilter = vtkScatteredLineFilter = _any
     vtkScatteredIsosurfaceFilter = vtkScatteredProbeFilter = vtkScatteredSliceFilter = vtkScatteredSurfaceFilter = _any
@@ -52,7 +51,7 @@ else:
     def __getattr__(name):
         if name == "__all__":
             return ["Interpolator", "Isosurface", "Piece", "Samples", "body", "contour", "gradient", "load_plugin",
-                    "probe", "slice_samples", *_found()]
+                    "probe", "ray_trace", "slice_samples", *_found()]
         if name not in _MODULES:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
         for module in map(_module, _MODULES[name]):

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The threads of filter and ray tracer: where one cannot be started the others do its work, and
-// what is computed together stays within the quota of a container.
+// Threads: where one cannot be started the others do its work, and what is computed together stays
+// within the quota of a container.
 #include "FailingAllocator.h"
 
 #include "Core/Base/Threads.h"

@@ -22,11 +22,4 @@ extern "C"
   {
     return 0;
   }
-
-  // Embree's threads synchronize inside the library, which calls nothing of the project. What they
-  // read was written while a scene was made.
-  const char* __tsan_default_suppressions()
-  {
-    return "race:libembree\ncalled_from_lib:libembree\nrace:raytracing::Scene::Scene\n";
-  }
 }

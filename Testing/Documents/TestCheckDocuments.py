@@ -54,8 +54,8 @@ DEFECTS = (  # the text of a page in docs, the line of the defect, and a word of
         ("`other`", "GapTetrahedra.h", 1, "not in"), ("`smallestPiece`", "Base.h", 1, "not in"))),
     *((f"| property | default |\n|---|---|\n| `{name}` | {value} |\n", 3, f"{name} is {known}")
       for name, value, known in (
-        ("MinimumPieceSize", 0.5, "0.0"), ("MinimumPieceSize", "", "0.0"), ("SamplesPerPixel", 64, 16),
-        ("Shadows", "off", 1), ("ComputeGradients", "on", "false"), ("Angle", 54, 54.7),
+        ("MinimumPieceSize", 0.5, "0.0"), ("MinimumPieceSize", "", "0.0"),
+        ("ComputeGradients", "on", "false"), ("Angle", 54, 54.7),
         ("Projection", "`LINEAR_FIT`", "Cubic"), ("NormalMethod", "planes", "Automatic"),
         ("RadiusArrayName", "`Size`", "Radius"), ("Controller", 3, "not in"))))
 

@@ -27,16 +27,11 @@ FOLDERS = {
     "Library": ("Core/*.h", "Core/Base/*.h", "Core/SplatMesh/*.h"),
     "Common": ("Core/Base/*.h",),
     "Rendering": ("Common/*.h", "Core/SplatMesh/*.h", "Core/Base/*.h"),
-    "RayTracing": ("RayTracing/Tracer/*.h", "Rendering/*.h", "Core/Base/*.h"),
-    "RayTracing/Tracer": ("Core/Base/*.h",),
-    "Plugin/Window": ("Plugin/Exporter/vtkIsopointRayTracingExporter.h",
-                      "Plugin/Representation/vtkSMIsopointRepresentationDomain.h"),
-    "Plugin/Exporter": ("RayTracing/vtkIsopointRayTracer.h",),
+    "Plugin/Window": ("Plugin/Representation/vtkSMIsopointRepresentationDomain.h",),
     "Plugin/Representation": ("Rendering/vtkIsopointPolygonMapper.h", "Rendering/vtkIsopointSplatPolygons.h")}
 # Patterns of other projects' headers, and of the folders that may include them.
 OTHERS = {
-    r"Eigen/": r"Core/(Fit|Splat)", r"CGAL/": r"Core/Tetrahedra", r"embree[34]/": r"RayTracing/Tracer",
-    r"vtk": r"(?!Core|Library|RayTracing/Tracer)",
+    r"Eigen/": r"Core/(Fit|Splat)", r"CGAL/": r"Core/Tetrahedra", r"vtk": r"(?!Core|Library)",
     r"vtk(PV|SM(?!P[A-Z])|SI(?!L)|ClientServer|ProcessModule|ParaView)|pq[A-Z]": r"Plugin",
     r"vtk(\w*(OpenGL|Render|Mapper|Actor|Shader|Camera|Texture|Light|View|HardwareSelector)|(Prop|Volume)|\w*Window\b)":
         r"(?!Filters|Common)"}
@@ -44,7 +39,7 @@ OTHERS = {
 
 def problems_of(root):
     root = pathlib.Path(root)
-    paths = [path for top in ("Core", "Library", "Common", "Filters", "Rendering", "RayTracing", "Plugin")
+    paths = [path for top in ("Core", "Library", "Common", "Filters", "Rendering", "Plugin")
              for path in sorted((root / top).rglob("*"))]
     files = {path.relative_to(root).as_posix(): path.read_text() for path in paths if path.suffix in (".h", ".cxx")}
     problems = [f"{path}: an unexpected suffix" for path in paths
@@ -58,9 +53,8 @@ def problems_of(root):
             problems.append(f"{name}: in a folder that no rule names")
             continue
         for include in re.findall(r'^\s*#\s*(?:include|import)\s*["<]([^">]+)[">]', text, re.MULTILINE):
-            header = re.sub("^Tracer/", "RayTracing/Tracer/", include)
             last = include.rpartition("/")[2]
-            header = header if re.match("Core/|Library/|RayTracing/Tracer/", header) else headers.get(last, "")
+            header = include if re.match("Core/|Library/", include) else headers.get(last, "")
             own[name].update({header} & set(files))
             allowed = any(map(pathlib.PurePath(header).match, (folder + "/*.h", *FOLDERS[folder])))
             foreign = any(re.match(other, include) and not re.match(homes, folder) for other, homes in OTHERS.items())

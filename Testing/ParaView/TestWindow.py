@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The plugin in ParaView's window: TestWindow.py PLUGIN PARAVIEW PVBATCH FILTER_XML EXPORTER_XML"""
+"""The plugin in ParaView's window: TestWindow.py PLUGIN PARAVIEW PVBATCH FILTER_XML"""
 
 import json
 import re
@@ -12,7 +12,7 @@ from playing import (
     ADVANCED, APPLY, FOLDER, FRAME, LOAD, SCRIPT, WINDOW, Mouse, check, choose, event, expect, expect_of, play_script,
     run, run_script, search, set_isovalue, set_property, set_radius_scale)
 
-PLUGIN, PARAVIEW, PVBATCH, FILTER_XML, EXPORTER_XML = sys.argv[1:]
+PLUGIN, PARAVIEW, PVBATCH, FILTER_XML = sys.argv[1:]
 NAMES = "Scattered Isopoints", "Scattered Isosurface"
 SPLATS = "Isopoint Splats"
 WAVELET = "isopoints = wavelet"  # in place of isopoints as the input of filters
@@ -142,31 +142,6 @@ isopoints.UpdatePipeline()
     check("No isosurface" not in said, "the isovalue is in the range of the array")
 
 
-def stop_tracing(paraview):
-    """Clicks at the button in the lower right corner of the dialog while rays are traced."""
-    mouse = Mouse()
-    while paraview.poll() is None:
-        mouse.click("Ray Tracing", 50, 25)
-        time.sleep(0.2)
-
-
-def pictures_are_traced():
-    """A menu entry traces the picture, and a button stops it. An empty view cannot be traced."""
-    path = FOLDER / "traced.png"
-    options = WINDOW + "RayTracingOptions/"
-    panel = options + "scrollArea/qt_scrollarea_viewport/Container/ProxyWidget/"
-    samples, label = panel + "SamplesPerPixel/IntRangeWidget/", panel + ("LightAngleLabel" if IS_5_13 else "1QLabel2")
-    choose_file = [event(WINDOW + "menubar/menu_File", "activate", "actionExportRayTracedPicture"),
-                   event(WINDOW + "FileExportDialog", "filesSelected", str(path))]
-    for count, meanwhile in (("2000", stop_tracing), ("1", None)):
-        play([*choose_file, expect_of(samples + "Slider", "maximum", "256"),
-              expect_help(label, EXPORTER_XML, "LightAngle"), event(samples + "LineEdit", "set_string", count),
-              event(options + "widget/OKButton", "activate")],
-             meanwhile=meanwhile)
-        check(path.exists() == (not meanwhile), f"{count} samples: stopped or written")
-    play(choose_file, "simple.Hide(isopoints, view)", possible=False)
-
-
 # Selects points in three steps, and tells at each picture what of them a filter has.
 SELECTS = """
 simple.Render(view)
@@ -233,4 +208,4 @@ print("found:", str(display.Representation).strip("'"), display.SplatRadiusScale
 
 run(inputs_are_hidden, rows_follow_others, counters_are_texts, help_is_at_labels, search_finds_each_filter_once,
     an_empty_result_is_explained, empty_results_keep_splats, negative_sizes_are_explained, isovalues_follow_the_array,
-    selected_points_keep_their_shapes, a_trace_runs_elsewhere, pictures_are_traced)
+    selected_points_keep_their_shapes, a_trace_runs_elsewhere)

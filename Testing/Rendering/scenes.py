@@ -6,7 +6,7 @@ import sys
 
 import numpy as np
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, the factories
-from scatteredisopoints import vtkIsopointRayTracer, vtkIsopointSplatMapper, vtkScatteredIsopointFilter
+from scatteredisopoints import vtkIsopointSplatMapper, vtkScatteredIsopointFilter
 from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData
 from vtkmodules.vtkFiltersSources import vtkSphereSource
@@ -163,14 +163,6 @@ class Scene:
         if path:
             configured(vtkPNGWriter(), FileName=path, InputData=grab.GetOutput()).Write()
         return as_array(grab.GetOutput())
-
-
-def traced(renderer, width, height, **properties):
-    """The ray-traced picture as an array."""
-    image = vtkImageData()
-    tracer = configured(vtkIsopointRayTracer(), **properties)
-    check(tracer.RenderToImage(renderer, width, height, image), "there is a picture")
-    return as_array(image)
 
 
 def differs(image, color=BACKGROUND):
