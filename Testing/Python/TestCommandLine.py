@@ -215,7 +215,8 @@ class CommandLine(unittest.TestCase):
         np.testing.assert_array_equal(like.positions, expected.points)
         np.testing.assert_array_equal(like.arrays["nx"], expected.normals[:, 0])
         self.assertEqual(set(like.arrays), {"T", "nx", "ny", "nz", "nx_", "x_", "a_b", "a_b_", "?", "?_"})
-        self.assertRegex(errors, r'\A(.*contour: warning: "(nx|x|a_b|ö)" has the name ".*_" in the PLY file, .*\n){4}\Z')
+        self.assertRegex(
+            errors, r'\A(.*contour: warning: "(nx|x|a_b|ö)" has the name ".*_" in the PLY file, .*\n){4}\Z')
         faces = np.frombuffer(pathlib.Path("made.ply").read_bytes()[-13 * len(expected.triangles):],
                               [("n", "u1"), ("corners", "<i4", 3)])
         np.testing.assert_array_equal(faces["corners"], expected.triangles)

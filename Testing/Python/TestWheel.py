@@ -181,7 +181,8 @@ def run_examples(environment, language):
 def check_types(environment):
     """Type checkers accept the documents' blocks and all names of the package, and find wrong names."""
     names = environment.run(
-        "-c", "import scatteredisopoints as s; print(*s._MODULES, 'Interpolator', 'Samples', 'load_plugin', 'ray_trace')").split()
+        "-c", "import scatteredisopoints as s\n"
+        "print(*s._MODULES, 'Interpolator', 'Samples', 'load_plugin', 'ray_trace')").split()
     imports = f"from scatteredisopoints import {', '.join(names)}\n"
     wrong = ("from scatteredisopoints import contuor\n",
              "from scatteredisopoints import contour\ncontour([], [], 0.3).colors\n")
