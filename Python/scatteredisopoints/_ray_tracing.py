@@ -154,9 +154,8 @@ class _Frame(NamedTuple):
 def _frame_of(renderer: Any) -> _Frame:
     bounds = np.reshape(renderer.ComputeVisiblePropBounds(), (3, 2))
     length = math.hypot(*np.diff(bounds)[:, 0])
-    if not (bounds[:, 0] <= bounds[:, 1]).all() or not 0.0 < length < math.inf:  # nothing, or a place
-        return _Frame(np.zeros(3), 1.0)
-    return _Frame(bounds.mean(axis=1), _DIAGONAL / length)
+    is_usable = (bounds[:, 0] <= bounds[:, 1]).all() and 0.0 < length < math.inf
+    return _Frame(bounds.mean(axis=1), _DIAGONAL / length) if is_usable else _Frame(np.zeros(3), 1.0)
 
 
 def _meshes_of(mitsuba: Any, renderer: Any, frame: _Frame, ambient: float) -> Iterator[Any]:
@@ -217,9 +216,8 @@ def _mesh_of(mitsuba: Any, actor: Any, data: Any, frame: _Frame, ambient: float)
         normals = vtk_to_numpy(normals).astype(float) @ np.linalg.inv(matrix[:, :3])
         sign = -1.0 if np.einsum("ij,ij->", outward, normals[triangles].sum(axis=1)) < 0.0 else 1.0
         normals *= sign / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny)
-    reflectance: dict[str, Any] = {"type": "mesh_attribute", "name": attribute}
-    if colors is None:
-        reflectance = _rgb(_tinted(used, ambient, used.GetDiffuseColor()))
+    reflectance = _rgb(_tinted(used, ambient, used.GetDiffuseColor())) if colors is None else {
+        "type": "mesh_attribute", "name": attribute}
     properties = mitsuba.Properties()
     properties["bsdf"] = mitsuba.load_dict(_material_of(used, reflectance))
     mesh = mitsuba.Mesh("", len(points), len(triangles), has_vertex_normals=normals is not None, props=properties)
@@ -240,14 +238,13 @@ def _colors_of(mapper: Any, mesh: Any) -> tuple[Optional[np.ndarray], str]:
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkCommonCore import reference
 
-    if not mapper.GetScalarVisibility():
-        return None, ""
     copy = mapper.NewInstance()  # since mapping stores its result in the mapper
     copy.ShallowCopy(mapper)
     copy.SetInterpolateScalarsBeforeMapping(False)
     source = reference(0)
     mapped = copy.MapScalars(mesh, 1.0, source)
-    colors = None if mapped is None or source == 2 else vtk_to_numpy(mapped)[:, :3] / 255.0  # 2: of field data
+    is_used = mapper.GetScalarVisibility() and mapped is not None and source != 2  # which are field data
+    colors = vtk_to_numpy(mapped)[:, :3] / 255.0 if is_used else None
     return colors, "face_color" if source else "vertex_color"
 
 
