@@ -418,12 +418,11 @@ TEST(Library, MessagesAboutNegatedValues)
   const std::size_t half = cloud.values.size() / 2;
   std::fill_n(cloud.values.begin(), half, -7.0);
   std::fill_n(cloud.values.rbegin(), half, -2.0);
-  const std::string range = "the array is from 2 to 7. Choose isovalues that are ";
+  const std::string range = "The array is from 2 to 7: no isosurface at ";
   EXPECT_EQ(messageAt({ -9.0, 0.0, 1.0 }, withTriangles),
-    "No isosurface at -1, 0, 9: " + range + "greater than 2 and less than 7.");
-  EXPECT_EQ(
-    messageAt({ -9.0 }, defaults), "No isosurface at 9: " + range + "less than 7, down to 2.");
-  EXPECT_EQ(messageAt({ -1.0 }, withCaps), "No isosurface at 1: " + range + "greater than 2.");
+    range + "-1, 0, 9. Choose isovalues between 2 and 7.");
+  EXPECT_EQ(messageAt({ -9.0 }, defaults), range + "9. Choose isovalues between 2 and 7.");
+  EXPECT_EQ(messageAt({ -1.0 }, withCaps), range + "1. Choose isovalues greater than 2.");
   cloud.values.assign(cloud.values.size(), -2.0);
   EXPECT_EQ(messageAt({ -1.0 }, withCaps),
     "No isosurface: all values of the array are 2. Choose another array, or a higher isovalue.");
