@@ -5,11 +5,13 @@ from __future__ import annotations
 
 import contextlib
 import math
+import operator
 import os
 from typing import Any, Iterator, NamedTuple, Optional, Union
 
 import numpy as np
 
+from ._datasets import leaves
 from ._progress import Progress, shown_progress
 from ._writing import file_to_write
 
@@ -64,14 +66,16 @@ def ray_trace(
     ImportError
         Without Mitsuba.
     TypeError, ValueError
-        If the scene is none of these, or a number is out of its range.
+        If the scene is none of these, a number is out of its range, or the path does not end with .png.
     OSError
         If the file cannot be written. An earlier one stays.
     """
     renderer, own_size = _renderer_of(scene)
-    width, height = (int(each) for each in (own_size if size is None else size))
+    width, height = map(operator.index, own_size if size is None else size)
+    if path is not None and not os.fsdecode(path).lower().endswith(".png"):
+        raise ValueError(f"{path!r} names no PNG file: it must end with .png")
     for name, value, least, most in (
-            ("samples", samples, 1, 2**31), ("width", width, 1, 2**15), ("height", height, 1, 2**15),
+            ("samples", operator.index(samples), 1, 2**31), ("width", width, 1, 2**15), ("height", height, 1, 2**15),
             ("light_angle", light_angle, 0.01, 90), ("ambient_light", ambient_light, 0.001, 1)):
         if not least <= value <= most:
             raise ValueError(f"{name} is {value}: it must be from {least} to {most}")
@@ -82,14 +86,21 @@ def ray_trace(
     variant = mitsuba.variant()
     mitsuba.set_variant("scalar_rgb")
     try:
-        with contextlib.nullcontext() if path is None else file_to_write(os.fspath(path)) as target:
+        with contextlib.nullcontext() if path is None else file_to_write(os.fsdecode(path)) as target:
             picture = _traced(mitsuba, renderer, (width, height), samples, light_angle, ambient_light, progress)
             if target is not None:
-                mitsuba.Bitmap(picture).write(target)
+                _write(mitsuba.Bitmap(picture), target, path)
         return picture
     finally:
         if variant is not None:
             mitsuba.set_variant(variant)
+
+
+def _write(bitmap: Any, target: str, path: Any) -> None:
+    try:
+        bitmap.write(target)
+    except RuntimeError:
+        raise OSError(f"{path} cannot be written: is the disk full?") from None
 
 
 def _renderer_of(scene: Any) -> tuple[Any, tuple[int, int]]:
@@ -160,6 +171,7 @@ def _frame_of(renderer: Any) -> _Frame:
 
 def _meshes_of(mitsuba: Any, renderer: Any, frame: _Frame, ambient: float) -> Iterator[Any]:
     from vtkmodules.vtkFiltersCore import vtkTriangleFilter
+    from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 
     actors = renderer.GetActors()
     actors.InitTraversal()
@@ -171,8 +183,9 @@ def _meshes_of(mitsuba: Any, renderer: Any, frame: _Frame, ambient: float) -> It
             continue
         mapper.Update()
         for data in _blocks_of(mapper):
-            triangulation = vtkTriangleFilter()
-            triangulation.SetInputData(data)
+            surface, triangulation = vtkGeometryFilter(), vtkTriangleFilter()
+            surface.SetInputData(data)
+            triangulation.SetInputConnection(surface.GetOutputPort())
             triangulation.PassVertsOff()
             triangulation.PassLinesOff()
             triangulation.Update()
@@ -181,19 +194,23 @@ def _meshes_of(mitsuba: Any, renderer: Any, frame: _Frame, ambient: float) -> It
 
 
 def _blocks_of(mapper: Any) -> Iterator[Any]:
-    """Each visible vtkPolyData."""
+    """The visible data sets."""
     data = mapper.GetInputDataObject(0, 0)
-    if data is not None and data.IsA("vtkPolyData"):
-        yield data
-    elif data is not None and data.IsA("vtkCompositeDataSet"):
-        attributes, leaves = mapper.GetCompositeDataDisplayAttributes(), data.NewIterator()
-        leaves.InitTraversal()
-        while not leaves.IsDoneWithTraversal():
-            leaf = leaves.GetCurrentDataObject()
-            leaves.GoToNextItem()
-            is_hidden = attributes and attributes.HasBlockVisibility(leaf) and not attributes.GetBlockVisibility(leaf)
-            if leaf.IsA("vtkPolyData") and not is_hidden:
-                yield leaf
+    hidden: set[str] = set()  # by address, since data of PyVista have no hash
+    if data is not None and data.IsA("vtkCompositeDataSet"):
+        attributes, nodes = mapper.GetCompositeDataDisplayAttributes(), data.NewIterator()
+        if hasattr(nodes, "VisitOnlyLeavesOff"):
+            nodes.VisitOnlyLeavesOff()
+        nodes.InitTraversal()
+        while attributes and not nodes.IsDoneWithTraversal():  # outer nodes come before those within
+            node = nodes.GetCurrentDataObject()
+            if attributes.HasBlockVisibility(node):
+                change = hidden.difference_update if attributes.GetBlockVisibility(node) else hidden.update
+                change(leaf.GetAddressAsString("") for leaf in leaves(node))
+            nodes.GoToNextItem()
+    for leaf in () if data is None else leaves(data):
+        if leaf.IsA("vtkDataSet") and leaf.GetAddressAsString("") not in hidden:
+            yield leaf
 
 
 def _mesh_of(mitsuba: Any, actor: Any, data: Any, frame: _Frame, ambient: float) -> Any:

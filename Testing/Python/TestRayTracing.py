@@ -95,8 +95,20 @@ class Pictures(unittest.TestCase):
                 ("not finite", plotter_of(with_nan, floor=False)), ("a line", plotter_of(pv.Line(), floor=False))):
             with self.subTest(name):
                 np.testing.assert_array_equal(ray_trace(plotter), nothing)
-        blocks = pv.MultiBlock([BALL, pv.Sphere(center=(0, 0, 5))])
-        self.assertLess(psnr(ray_trace(plotter_of(blocks, floor=False)), nothing), 20, "blocks are traced")
+
+    def test_data_sets_of_every_kind_are_traced(self):
+        """A grid, an image, and blocks, of which an outer one is hidden."""
+        box = pv.ImageData(dimensions=(2, 2, 2), origin=(-0.7, -0.7, -0.7), spacing=(1.4, 1.4, 1.4))
+        for mesh in (BALL.cast_to_unstructured_grid(), box, pv.MultiBlock([pv.MultiBlock([BALL]), box])):
+            plotter = plotter_of(mesh, floor=False, smooth_shading=False)
+            plotter.set_background("black")
+            picture, drawn = ray_trace(plotter, samples=32, light_angle=0.01), plotter.screenshot(return_img=True)
+            with self.subTest(type(mesh).__name__):
+                self.assertGreater(psnr(picture, drawn), 25)
+        blocks = pv.MultiBlock({"outer": pv.MultiBlock({"ball": BALL}), "small": pv.Sphere(0.1)})
+        hidden = plotter_of(blocks, floor=False)
+        next(iter(hidden.renderer.actors.values())).mapper.block_attr[1].visible = False
+        self.assertLess(abs(ray_trace(hidden)[10:60].astype(int) - ray_trace(plotter_of(floor=False))[10:60]).max(), 2)
 
     def test_any_unit_gives_the_same_picture(self):
         expected = ray_trace(plotter_of(BALL), samples=16)
@@ -160,6 +172,11 @@ class Calls(unittest.TestCase):
                 ({"light_angle": 0.0}, "light_angle"), ({"ambient_light": 2.0}, "ambient_light")):
             with self.subTest(word), self.assertRaisesRegex(ValueError, word):
                 ray_trace(plotter, **options)
+        for path in ("picture", "picture.exr", ""):
+            with self.assertRaisesRegex(ValueError, "must end with .png"):
+                ray_trace(plotter, path)
+        with self.assertRaises(TypeError):
+            ray_trace(plotter, size=(10.5, 10))
         with self.assertRaisesRegex(TypeError, "no plotter"):
             ray_trace(BALL)
 
