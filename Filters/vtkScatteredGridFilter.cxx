@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkScatteredGridFilter.h"
 
-#include "Core/Failure.h"
 #include "Input/vtkIsopointBlocks.h"
 #include "Output/vtkIsopointPlaces.h"
 #include "Update/vtkIsopointProbing.h"
@@ -20,6 +19,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
+#include <exception>
 #include <sstream>
 
 vtkStandardNewMacro(vtkScatteredGridFilter);
@@ -137,7 +137,7 @@ void vtkScatteredGridFilter::GuessExtent(vtkInformation* inputInfo, int extent[6
       vtkFindIsopointGrid(bounds, this->SamplingDimensions, this->Spacing);
     std::copy_n(grid.Extent, 6, extent);
   }
-  catch (const isopoint::UsageError&)
+  catch (const std::exception&)
   {
     std::fill_n(extent, 6, 0); // the update reports the error
   }
@@ -183,15 +183,23 @@ void vtkScatteredGridFilter::MakePlaces(
   vtkIsopointGrid grid = vtkFindIsopointGrid(bounds, this->SamplingDimensions, this->Spacing);
   if (this->IsGuessOfData && this->Updater->GetProcesses().size() == 1)
   {
-    // Filters downstream do not hear of another extent, as of samples that move.
+    // Filters downstream do not hear of another extent, as of samples that move or are hidden.
     for (int axis = 0; axis < 3; ++axis)
     {
       const int steps = announced[2 * axis + 1];
-      const bool isAutomatic = this->SamplingDimensions[axis] == 0 && this->Spacing[axis] == 0.0;
-      if (isAutomatic && steps > 0 && grid.Extent[2 * axis + 1] > 0)
+      int& needed = grid.Extent[2 * axis + 1];
+      if (this->SamplingDimensions[axis] > 0 || steps <= 0 || needed <= 0)
       {
-        grid.Extent[2 * axis + 1] = steps;
+        continue;
+      }
+      if (this->Spacing[axis] == 0.0)
+      {
         grid.Spacing[axis] = (bounds[2 * axis + 1] - bounds[2 * axis]) / steps;
+        needed = steps;
+      }
+      else
+      {
+        needed = std::max(needed, steps);
       }
     }
   }

@@ -12,6 +12,7 @@
 #include "Core/Tree/NodeMarks.h"
 #include "Core/Tree/TreeRefinement.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
@@ -318,10 +319,8 @@ private:
   {
     this->Current->marks.grow(this->Tree.nodes.size());
     const std::vector<Site> sites = this->newSites(leaves);
-    // These cells depend on ranks and former isovalues. So all samples decide, whenever the limit
-    // may be near.
-    constexpr std::size_t suspiciousPart = 3;
-    const std::size_t most = this->Current->isUnlimited ? unlimited : this->Most / suspiciousPart;
+    const std::size_t most =
+      this->Current->isUnlimited ? unlimited : this->suspiciousCount(sites.size());
     const bool isFull = !this->insert(this->triangulation(), this->nextStep(), sites, most);
     if (this->Ranks.isAny(isFull))
     {
@@ -329,6 +328,18 @@ private:
       this->Current->isUnlimited = true;
       this->insert(this->triangulation(), this->nextStep(), sites, unlimited);
     }
+  }
+
+  /// Cells depend on ranks and former isovalues. So all samples decide, whenever the limit may be
+  /// near: at a third of it, or early if samples have more than any but those on curves.
+  std::size_t suspiciousCount(std::size_t newCount)
+  {
+    constexpr std::size_t nearPart = 3;
+    constexpr std::size_t earlyPart = 16;
+    constexpr std::size_t manyForSample = 100;
+    const std::size_t early = std::max(
+      this->Most / earlyPart, manyForSample * (this->triangulation().size() + newCount));
+    return std::min(this->Most / nearPart, early);
   }
 
   static bool insert(PartialTriangulation& triangulation, const Execution& step,

@@ -263,11 +263,10 @@ private:
     constexpr std::size_t stepSize = 512;
     Vertex hint;
     freeCells = 0;
-    constexpr std::size_t fewCells =
-      64; // on a curve each sample adds as many cells as there are samples
+    constexpr std::size_t fewSites = 64; // on curves they add thousands of cells each
     for (std::size_t i = begin; i < end; ++i)
     {
-      if ((i - begin) % fewCells == 0 && this->isFull())
+      if ((i - begin) % fewSites == 0 && this->isFull())
       {
         return;
       }

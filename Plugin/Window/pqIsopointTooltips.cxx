@@ -5,15 +5,14 @@
 #include <QCursor>
 #include <QEvent>
 #include <QLabel>
+#include <QPoint>
 #include <QRegularExpression>
 #include <QString>
-#include <QTimer>
-#include <QToolTip>
 
 namespace
 {
 
-/// Replaces a tooltip as soon as it is shown, or takes another size because of another text.
+/// Shortens the text of a tooltip before it is painted.
 class TooltipFilter : public QObject
 {
 public:
@@ -23,20 +22,15 @@ public:
     if (mayHaveText && object->inherits("QTipLabel"))
     {
       static const QRegularExpression lines("\n *Splat(Axis|Polygon): \\([^)]*\\)");
-      const QString text = static_cast<QLabel*>(object)->text();
-      QString without = text;
-      without.remove(lines);
-      if (without != text)
+      auto* const tip = static_cast<QLabel*>(object);
+      QString text = tip->text();
+      text.remove(lines);
+      if (text != tip->text())
       {
-        // Not within the event: a tip that is not visible yet would be replaced by another one.
-        QTimer::singleShot(0, this,
-          [text, without]()
-          {
-            if (QToolTip::isVisible() && QToolTip::text() == text)
-            {
-              QToolTip::showText(QCursor::pos(), without);
-            }
-          });
+        tip->setText(text);
+        tip->resize(tip->sizeHint());
+        constexpr int height = 16; // of a pointer
+        tip->move(QCursor::pos() + QPoint(0, height));
       }
     }
     return QObject::eventFilter(object, event);

@@ -306,12 +306,15 @@ class vtkScatteredGridFilter(vtkScatteredProbeFilter):
         whole, origin, spacing = _grid_in(bounds, self._values["SamplingDimensions"], self._values["Spacing"])
         announced, extent = (list(info.Get(key)) for key in (pipeline.WHOLE_EXTENT(), pipeline.UPDATE_EXTENT()))
         for axis in range(3) if self._is_guess_of_data else ():
-            # Filters downstream do not hear of another extent, as of samples that move.
-            steps = announced[2 * axis + 1]
-            is_automatic = self._values["SamplingDimensions"][axis] == 0 and self._values["Spacing"][axis] == 0.0
-            if is_automatic and steps > 0 and whole[2 * axis + 1] > 0:
+            # Filters downstream do not hear of another extent, as of samples that move or are hidden.
+            steps, needed = announced[2 * axis + 1], whole[2 * axis + 1]
+            if self._values["SamplingDimensions"][axis] > 0 or steps <= 0 or needed <= 0:
+                continue
+            if self._values["Spacing"][axis] == 0.0:
                 whole[2 * axis + 1] = steps
                 spacing[axis] = (bounds[2 * axis + 1] - bounds[2 * axis]) / steps
+            else:
+                whole[2 * axis + 1] = max(needed, steps)
         self._last = self._grid_key(), whole
         if announced != whole:
             pieces = info.Get(pipeline.UPDATE_NUMBER_OF_PIECES())

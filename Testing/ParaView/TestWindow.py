@@ -9,7 +9,7 @@ import xml.etree.ElementTree as ElementTree
 
 import playing
 from playing import (
-    ADVANCED, APPLY, FOLDER, FRAME, LOAD, SCRIPT, WINDOW, Mouse, check, choose, event, expect, expect_of, play_script,
+    ADVANCED, APPLY, FOLDER, FRAME, LOAD, SCRIPT, VIEWS, WINDOW, Mouse, check, choose, event, expect, expect_of, play_script,
     run, run_script, search, set_isovalue, set_property, set_radius_scale)
 
 PLUGIN, PARAVIEW, PVBATCH, FILTER_XML = sys.argv[1:]
@@ -82,6 +82,44 @@ def expect_help(label, xml, name):
 
 def help_is_at_labels():
     play([choose(NAMES[0]), expect_help(FRAME + "1QLabel0", FILTER_XML, "SelectInputScalars")])
+
+
+def derivatives_of_vectors_are_for_vectors():
+    """Their rows are gray while a scalar is chosen."""
+    more = """
+isopoints = simple.Calculator(Input=wavelet, ResultArrayName="velocity", Function="coordsX*jHat-coordsY*iHat")
+isopoints.UpdatePipeline()
+"""
+    rows = "ComputeDivergence", "ComputeVorticity", "ComputeQCriterion"
+    choose_array = [event(FRAME + "SelectInputScalars/ComboBox", "set_string", name) for name in ("velocity", "RTData")]
+    play([choose("ScatteredGradient"),
+          choose_array[0], *(expect(row, "enabled") for row in rows), expect("ComputeGradient", "enabled"),
+          choose_array[1], *(expect(row, "enabled", "false") for row in rows), expect("ComputeGradient", "enabled"),
+          choose_array[0], set_property("ComputeVorticity", "true"), APPLY], more)
+
+
+COLORS = """
+isopoints = simple.PointDatatoCellData(Input=wavelet)
+display = simple.Show(isopoints, view)
+display.Representation = "Surface"
+simple.ColorBy(display, ("CELLS", "RTData"))
+
+def tell(*_):
+    grid = simple.FindSource("ScatteredGrid1")
+    shown = grid and view.SMProxy.FindRepresentation(grid.SMProxy, 0)
+    if shown:
+        shown = simple.servermanager._getPyProxy(shown)
+        print("color:", list(shown.ColorArrayName), shown.LookupTable == display.LookupTable, flush=True)
+
+view.GetRenderWindow().AddObserver("EndEvent", tell)
+"""
+
+
+def images_keep_the_color_of_cells():
+    """The values of the cells are at the points of an image."""
+    _, said = play([choose("ScatteredGrid"), APPLY], COLORS)
+    last = [line for line in said.splitlines() if line.startswith("color:")][-1]
+    check(last == "color: ['POINTS', 'RTData'] True", last)
 
 
 def search_finds_each_filter_once():
@@ -181,6 +219,31 @@ def selected_points_keep_their_shapes():
         check(name in play(events, more)[0], f"{name}, an extract of nothing")
 
 
+FRAME_OF_VIEW = VIEWS + "Frame.0/"
+CELL_TIPS = [
+    event(FRAME_OF_VIEW + "actionHoveringSurfaceCells", "set_boolean", "true"),
+    event(WINDOW + "CoreUtilitiesPromptUser/qt_msgbox_buttonbox/1QPushButton0", "activate"),
+    # A tip is shown where the mouse stays.
+    *(each for x in (0.5, 0.51) for each in (
+        event(FRAME_OF_VIEW + "CentralWidgetFrame/Viewport/1QVTKOpenGLNativeWidget0", "mouseMove", f"({x},0.5,0,0,0)"),
+        event(WINDOW[:-1], "pause", "3000")))]
+
+
+def tips_lack_the_numbers_of_splats():
+    """What is left of the tip of a cell is narrow: the name of the filter, the cell's number and type."""
+    sizes = set()
+
+    def hover(process):
+        mouse = Mouse()
+        mouse.move(600, 400)  # a place in the view
+        while process.poll() is None:
+            sizes.update(mouse.sizes_of_tips())
+            time.sleep(0.1)
+
+    play(CELL_TIPS, "simple.ResetCamera(view)\nview.GetActiveCamera().Zoom(2)", meanwhile=hover)
+    check(sizes and all(width < 400 for width, _ in sizes), f"sizes of tips: {sizes}")
+
+
 TRACES = """
 from paraview import smtrace
 smtrace.start_trace(preamble="")
@@ -208,4 +271,5 @@ print("found:", str(display.Representation).strip("'"), display.SplatRadiusScale
 
 run(inputs_are_hidden, rows_follow_others, counters_are_texts, help_is_at_labels, search_finds_each_filter_once,
     an_empty_result_is_explained, empty_results_keep_splats, negative_sizes_are_explained, isovalues_follow_the_array,
-    selected_points_keep_their_shapes, a_trace_runs_elsewhere)
+    selected_points_keep_their_shapes, derivatives_of_vectors_are_for_vectors, images_keep_the_color_of_cells,
+    tips_lack_the_numbers_of_splats, a_trace_runs_elsewhere)

@@ -12,11 +12,10 @@ import sys
 import numpy as np
 
 from playing import (
-    APPLY, FOLDER, FRAME, LOAD, SCRIPT, WINDOW, check, choose, event, play_script, run, run_script, set_property,
+    APPLY, FOLDER, FRAME, LOAD, SCRIPT, VIEWS, WINDOW, check, choose, event, play_script, run, run_script, set_property,
     version_of)
 
 PLUGIN, PARAVIEW, PVBATCH, *RANKS = sys.argv[1:]
-VIEWS = WINDOW + "centralwidget/MultiViewWidget/CoreWidget/qt_tabwidget_stackedwidget/MultiViewWidget1/Container/"
 INPUTS = WINDOW + "SelectInputDialog/"
 LINEAR = [set_property("Interpolation", "Linear fit")]
 UNDO, REDO = (event(WINDOW + "menubar/menu_Edit", "activate", "actionEdit" + name) for name in ("Undo", "Redo"))

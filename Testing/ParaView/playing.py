@@ -51,6 +51,7 @@ _temporary = tempfile.TemporaryDirectory()  # removed when the script ends
 FOLDER = pathlib.Path(_temporary.name)
 
 WINDOW = "pqClientMainWindow/"
+VIEWS = WINDOW + "centralwidget/MultiViewWidget/CoreWidget/qt_tabwidget_stackedwidget/MultiViewWidget1/Container/"
 PANEL = WINDOW + "propertiesDock/propertiesPanel/"
 _FRAMES = PANEL + "scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents/"
 FRAME, DISPLAY = (_FRAMES + name + "Frame/ProxyPanel/" for name in ("Properties", "Display"))
@@ -155,8 +156,18 @@ class _ButtonEvent(ctypes.Structure):
         ] + [("padding", ctypes.c_long * 24)]
 
 
+class _WindowAttributes(ctypes.Structure):
+    _fields_ = [(name, getattr(ctypes, "c_" + kind)) for name, kind in (
+        ("x", "int"), ("y", "int"), ("width", "int"), ("height", "int"), ("border_width", "int"), ("depth", "int"),
+        ("visual", "void_p"), ("root", "ulong"), ("class", "int"), ("bit_gravity", "int"), ("win_gravity", "int"),
+        ("backing_store", "int"), ("backing_planes", "ulong"), ("backing_pixel", "ulong"), ("save_under", "int"),
+        ("colormap", "ulong"), ("map_installed", "int"), ("map_state", "int"), ("all_event_masks", "long"),
+        ("your_event_mask", "long"), ("do_not_propagate_mask", "long"), ("override_redirect", "int"),
+        ("screen", "void_p"))]
+
+
 class Mouse:
-    """Clicks in windows of other programs, through the X server."""
+    """Looks for windows of other programs and clicks in them, through the X server."""
 
     def __init__(self):
         self._x = ctypes.CDLL("libX11.so.6")
@@ -168,18 +179,37 @@ class Mouse:
         self._ignore = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p)(lambda *_: 0)
         self._x.XSetErrorHandler(self._ignore)
 
-    def _find(self, title):
-        """The window with this title, or None. No window manager puts windows into others here."""
+    def _windows(self):
+        """The windows of the screen. No window manager puts windows into others here."""
         ids, children, count = ctypes.c_ulong(), ctypes.POINTER(ctypes.c_ulong)(), ctypes.c_uint()
         self._x.XQueryTree(self._display, self._root, *2 * [ctypes.byref(ids)], ctypes.byref(children),
                            ctypes.byref(count))
         windows = [ctypes.c_ulong(child) for child in children[:count.value]]
         self._x.XFree(children)
-        for window in windows:
+        return windows
+
+    def _find(self, title):
+        """The window with this title, or None."""
+        for window in self._windows():
             name = ctypes.c_char_p()
             if self._x.XFetchName(self._display, window, ctypes.byref(name)) and name.value == title.encode():
                 return window
         return None
+
+    def sizes_of_tips(self):
+        """The widths and heights of tooltips and menus: windows that no window manager moves."""
+        found = []
+        for window in self._windows():
+            state = _WindowAttributes()
+            self._x.XGetWindowAttributes(self._display, window, ctypes.byref(state))
+            if state.override_redirect and state.map_state:
+                found.append((state.width, state.height))
+        return found
+
+    def move(self, x, y):
+        """Moves the pointer to a place of the screen."""
+        self._x.XWarpPointer(self._display, ctypes.c_ulong(), self._root, 0, 0, 0, 0, x, y)
+        self._x.XFlush(self._display)
 
     def click(self, title, right, bottom):
         """Clicks in the window with this title, so many pixels from its lower right corner."""

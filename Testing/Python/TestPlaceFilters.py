@@ -377,9 +377,15 @@ class PlaceFilters(FilterTests):
     def test_images_have_the_extent_that_they_announce(self):
         """Filters downstream then do not ask for one that is outside, nor for an update without a change."""
         flat = cloud_of(np.random.default_rng(2).random((50, 3)) * (2, 1, 0), np.arange(50.0))
+        # Samples in use that end before others do.
         hidden = with_ghosts(cloud(50), POINTS, [HIDDEN_POINT, HIDDEN_POINT] + 48 * [0])
+        hidden.GetPoints().SetPoint(0, 2, 2, 2)
+        hidden.GetPoints().Modified()
+        centers = image(6)
+        add(centers, CELLS, "f", np.arange(216.0))
         for data, options in ((flat, dict(SamplingDimensions=(5, 4, 3))), (flat, dict(Spacing=3 * (0.5,))),
-                              (flat, {}), (hidden, {})):
+                              (flat, {}), (hidden, {}), (hidden, dict(Spacing=3 * (0.1,))),
+                              (centers, dict(Spacing=3 * (0.1,)))):
             producer = vtkTrivialProducer()
             producer.SetOutput(data)
             filter_ = self.new("Grid", data, **dict(dict(SamplingDimensions=(0, 0, 0), Interpolation=4), **options))
@@ -394,6 +400,8 @@ class PlaceFilters(FilterTests):
             self.assertEqual(after.GetOutput().GetExtent(), filter_.GetOutput().GetExtent())
             self.assertEqual(filter_.GetOutput().GetUpdateTime(), updated_at)
             self.assertEqual(errors, [])
+            if "Spacing" in options:
+                self.assertEqual(filter_.GetOutput().GetSpacing(), options["Spacing"])
 
     def test_grids_have_the_chosen_arrays(self):
         samples = cloud_of(np.random.default_rng(2).random((50, 3)), np.arange(50.0), "values")
