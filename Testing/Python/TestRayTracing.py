@@ -91,8 +91,8 @@ class Pictures(unittest.TestCase):
         with_nan.points[:] = np.nan
         for name, plotter in (
                 ("hidden", hidden), ("lines", plotter_of(BALL, floor=False, style="wireframe")),
-                ("clear", plotter_of(BALL, floor=False, opacity=0.0)), ("not finite", plotter_of(with_nan, floor=False)),
-                ("a line", plotter_of(pv.Line(), floor=False))):
+                ("clear", plotter_of(BALL, floor=False, opacity=0.0)),
+                ("not finite", plotter_of(with_nan, floor=False)), ("a line", plotter_of(pv.Line(), floor=False))):
             with self.subTest(name):
                 np.testing.assert_array_equal(ray_trace(plotter), nothing)
         blocks = pv.MultiBlock([BALL, pv.Sphere(center=(0, 0, 5))])
@@ -155,8 +155,9 @@ class Calls(unittest.TestCase):
 
     def test_wrong_arguments_are_named(self):
         plotter = plotter_of(BALL)
-        for options, word in (({"samples": 0}, "samples"), ({"size": (0, 10)}, "width"), ({"size": (10, 10**6)}, "height"),
-                              ({"light_angle": 0.0}, "light_angle"), ({"ambient_light": 2.0}, "ambient_light")):
+        for options, word in (
+                ({"samples": 0}, "samples"), ({"size": (0, 10)}, "width"), ({"size": (10, 10**6)}, "height"),
+                ({"light_angle": 0.0}, "light_angle"), ({"ambient_light": 2.0}, "ambient_light")):
             with self.subTest(word), self.assertRaisesRegex(ValueError, word):
                 ray_trace(plotter, **options)
         with self.assertRaisesRegex(TypeError, "no plotter"):

@@ -181,7 +181,8 @@ def run_examples(environment, language):
 def check_types(environment):
     """Type checkers accept the documents' blocks and all names of the package, and find wrong names."""
     names = environment.run(
-        "-c", "import scatteredisopoints as s; print(*s._MODULES, 'Interpolator', 'Samples', 'load_plugin')").split()
+        "-c", "import scatteredisopoints as s\n"
+        "print(*s._MODULES, 'Interpolator', 'Samples', 'load_plugin', 'ray_trace')").split()
     imports = f"from scatteredisopoints import {', '.join(names)}\n"
     wrong = ("from scatteredisopoints import contuor\n",
              "from scatteredisopoints import contour\ncontour([], [], 0.3).colors\n")
@@ -268,7 +269,9 @@ def main(folder, wheel=None):
     environment.run(ROOT / "Examples/pyvista_cloud.py", **DRAWING)
     print(f"{run_examples(environment, 'py')} examples of the documents ran")
     check_picture(environment, ROOT / "docs/surface.png")
-    environment.run("-m", "pip", "install", "--quiet", "plotly<6", "kaleido==0.2.1")
+    environment.run("-m", "pip", "install", "--quiet", "plotly<6", "kaleido==0.2.1", "mitsuba")
+    environment.run(TESTS / "TestRayTracing.py", **DRAWING)
+    print("Ray tracing by Mitsuba passed")
     check_gallery(environment)
     environment.run("-m", "pip", "install", "--quiet", "mypy", "pyright[nodejs]")
     check_types(environment)
