@@ -50,8 +50,10 @@ public:
   ///@{
   /**
    * The distance of points along each axis whose sampling dimension is 0. The image begins at the
-   * least bound and ends at the greatest one or up to a distance beyond. 0: the longest side,
-   * divided by 99. Negative and infinite numbers are an error in the next update. Default: 0, 0, 0.
+   * least bound and ends at the greatest one or up to a distance beyond, or farther beyond where
+   * the information pass, which knows only bounds of all points, announced more points. 0: the
+   * longest side, divided by 99. Negative and infinite numbers are an error in the next update.
+   * Default: 0, 0, 0.
    */
   vtkSetVector3Macro(Spacing, double);
   vtkGetVector3Macro(Spacing, double);

@@ -175,9 +175,9 @@ void vtkScatteredProbeFilter::FillOutput(vtkDataObject* output)
     options.outsideNumber = this->NullValue;
   }
   std::vector<std::uint8_t> kinds;
-  const std::vector<vtkIsopointProbing::Array> arrays = this->Probing->ProbeAll(places, options,
-    this->GetChosenArrays(), this->NearestArrays, this->ListOwnArrays(),
-    this->MarkBlankPointsAndCells != 0, kinds);
+  const std::vector<vtkIsopointProbing::Array> arrays =
+    this->Probing->ProbeAll(places, options, this->GetChosenArrays(), this->NearestArrays,
+      this->ListOwnArrays(), this->MarkBlankPointsAndCells != 0, kinds);
 
   std::vector<unsigned char> areNull(places.size());
   std::transform(kinds.begin(), kinds.end(), areNull.begin(),

@@ -140,8 +140,7 @@ void vtkIsopointProbing::Probe(const std::vector<isopoint::Vector>& places,
 std::vector<vtkIsopointProbing::Array> vtkIsopointProbing::ProbeAll(
   const std::vector<isopoint::Vector>& places, const isopoint::ProbeOptions& options,
   const std::set<std::string>* chosen, const std::vector<std::string>& nearest,
-  const std::set<std::string>& own, bool isOutsideHidden,
-  std::vector<std::uint8_t>& kinds)
+  const std::set<std::string>& own, bool isOutsideHidden, std::vector<std::uint8_t>& kinds)
 {
   this->Report.IsOutsideLost =
     isOutsideHidden || options.outside == isopoint::OutsideStrategy::Number;

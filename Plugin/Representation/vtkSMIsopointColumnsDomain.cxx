@@ -25,7 +25,8 @@ int vtkSMIsopointColumnsDomain::SetDefaultValues(vtkSMProperty* property, bool u
   {
     labels.emplace_back(hidden.GetAsString(i));
   }
-  for (const char* const label : { "SplatAxis", "SplatPolygon" })
+  for (const char* const label :
+    { "SplatAxis", "SplatAxis_Magnitude", "SplatPolygon", "SplatPolygon_Magnitude" })
   {
     labels.emplace_back(label);
   }

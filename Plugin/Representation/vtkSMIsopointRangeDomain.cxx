@@ -38,7 +38,8 @@ int vtkSMIsopointRangeDomain::SetDefaultValues(vtkSMProperty* property, bool use
 
 void vtkSMIsopointRangeDomain::Update(vtkSMProperty* requestingProperty)
 {
-  // The superclass takes infinite values too, but knows arrays of other names that ParaView converts.
+  // The superclass takes infinite values too, but knows arrays of other names that ParaView
+  // converts.
   if (!this->SetFiniteRange())
   {
     this->Superclass::Update(requestingProperty);

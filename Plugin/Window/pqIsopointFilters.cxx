@@ -166,15 +166,15 @@ void pqIsopointFilters::keepColor(pqPipelineFilter* filter)
     pqDataRepresentation* const own = filter->getRepresentation(view);
     pqDataRepresentation* const former = input ? input->getRepresentation(view) : nullptr;
     if (!own || !former || !own->getProxy()->GetProperty("ColorArrayName") ||
-      !former->getProxy()->GetProperty("ColorArrayName"))
+        !former->getProxy()->GetProperty("ColorArrayName"))
     {
       continue;
     }
     vtkSMPropertyHelper color(former->getProxy(), "ColorArrayName");
     const char* const name = color.GetInputArrayNameToProcess();
     if (name && name[0] && color.GetInputArrayAssociation() == vtkDataObject::CELL &&
-      filter->getOutputPort(0)->getDataInformation()->GetArrayInformation(
-        name, vtkDataObject::POINT))
+        filter->getOutputPort(0)->getDataInformation()->GetArrayInformation(
+          name, vtkDataObject::POINT))
     {
       vtkSMPropertyHelper(own->getProxy(), "ColorArrayName")
         .SetInputArrayToProcess(vtkDataObject::POINT, name);

@@ -156,7 +156,8 @@ def grids_of_chosen_arrays_without_errors():
 def spreadsheets_hide_splats():
     """Unless the user shows their columns."""
     hidden = list(simple.CreateView("SpreadSheetView").HiddenColumnLabels)
-    check(hidden == ["Block Number", "SplatAxis", "SplatPolygon"], f"hidden: {hidden}")
+    check(hidden == ["Block Number"] + [name + end for name in ("SplatAxis", "SplatPolygon")
+                                        for end in ("", "_Magnitude")], f"hidden: {hidden}")
 
 
 def input_matters_rather_than_the_active_source():

@@ -136,6 +136,12 @@ def search_finds_each_filter_once():
                                ("surface of particles", ("Surface of particles",), "Scattered Body")):
         shown, _ = play([*search(PARAVIEW, words, *found), APPLY], WAVELET)
         check(any(each.startswith(name.replace(" ", "")) for each in shown), f"{name} was created: {shown}")
+    cloud = "Surface (isosurface) of a cloud of samples"
+    for words, found, name in (("vorticity", "Vorticity of samples", "ScatteredGradient"),
+                               ("streamline", "Streamlines of samples, by an image", "ScatteredGrid"),
+                               ("cloud", cloud, "ScatteredIsosurface"), ("surface", cloud, "ScatteredIsosurface")):
+        shown, _ = play([*search(PARAVIEW, words, found, are_all=False), APPLY], WAVELET)
+        check(name + "1" in shown, f"{name} was created: {shown}")
     play([*search(PARAVIEW, "plot samples", "Plot samples over a line"), APPLY], WAVELET)  # in a view of its own
 
 

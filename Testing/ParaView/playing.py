@@ -94,9 +94,10 @@ def version_of(paraview):
     return tuple(map(int, re.search(r"(\d+)\.(\d+)\.(\d+)", said.stdout).groups()))
 
 
-def search(paraview, words, *found):
+def search(paraview, words, *found, are_all=True):
     """Types words into the quick search. Creates the first of the filters that it finds, which have these names there.
-    Since 5.13 it searches help too: only the first name is compared."""
+    Since 5.13 it searches help too: only the first name is compared.
+    @param are_all whether these are all that it finds"""
     is_5_13 = version_of(paraview) >= (5, 13)
     dialog = WINDOW + ("QuickLaunchDialogExtended/" if is_5_13 else "QuickLaunchDialog")
     button = dialog + ("CreateProxy" if is_5_13 else "/selection")
@@ -104,7 +105,7 @@ def search(paraview, words, *found):
     typed = [event(dialog + "Request", "set_string", words)] if is_5_13 else [
         event(dialog, "keyEvent", f"{key_press}:{ord(key)}:0:{key.lower()}:0:1") for key in words.upper()]
     return [event(WINDOW + "menubar/menuFilters", "activate", "Search...\tCtrl+Space"), *typed,
-            *([] if is_5_13 else [expect_of(dialog + "/options", "count", str(len(found))), *(
+            *([] if is_5_13 else [*[expect_of(dialog + "/options", "count", str(len(found)))] * are_all, *(
                 expect_of(dialog + "/options", "modelItemData", f"{row}.0,{name}") for row, name in enumerate(found))]),
             expect_of(button, "text", found[0]), event(button, "activate")]
 
