@@ -157,8 +157,8 @@ class Isosurface:
         return _imported("trimesh").Trimesh(self.points.copy(), self.triangles.copy(), process=False)
 
     def save(self, path: Union[str, os.PathLike[str]]) -> None:
-        """Writes a file, with all arrays of points that its format can hold. An earlier one keeps its permissions, and
-        stays if this fails.
+        """Writes a file, with all arrays of points that its format can hold. An earlier one keeps its owner and
+        permissions, as far as the system allows, and stays if this fails.
 
         Parameters
         ----------
