@@ -364,11 +364,15 @@ class Results(unittest.TestCase):
             for array in (each.points, each.triangles, each.region_ids, *each.arrays.values()):
                 with self.assertRaisesRegex(ValueError, "read-only"):
                     array *= 2
+                with self.assertRaisesRegex(ValueError, "cannot set WRITEABLE flag"):
+                    array.flags.writeable = True
             with self.assertRaises(AttributeError):
                 each.triangles = surface.triangles
             doubled = 2 * each.points
             each.points = doubled
             doubled[:] = 7.0
+            with self.assertRaisesRegex(ValueError, "cannot set WRITEABLE flag"):
+                each.points.flags.writeable = True
             np.testing.assert_allclose(each.area, 4 * area)
             np.testing.assert_allclose(each.volume, 8 * volume)
             self.assertAlmostEqual(each.pieces[0].area / pieces[0].area, 4)
@@ -376,13 +380,14 @@ class Results(unittest.TestCase):
         points = contour(positions, values, 0.3)
         points.points = points.points + 1
         self.assertEqual((list(points.arrays), points.radii), (["values"], None))
-        with self.assertRaisesRegex(ValueError, "no splats"):
+        with self.assertRaisesRegex(ValueError, "no splats any more, since points were assigned"):
             points.splats()
         own = contour(positions, values, 0.3, arrays={"Normals": positions}, compute_normals=False, triangles=True)
         own.points = own.points.astype(np.float32).tolist()
         self.assertEqual(own.arrays.keys(), {"Normals", "values"})
         for wrong, text in ((own.points[1:], "points have the shape .*: give one for each"),
-                            (own.points[:, :2], r"points have the shape .*, not \(n, 3\)")):
+                            (own.points[:, :2], r"points have the shape .*, not \(n, 3\)"),
+                            (np.where(own.points > 0.5, np.nan, own.points), "points are not finite: give finite")):
             with self.assertRaisesRegex(ValueError, text):
                 own.points = wrong
 
