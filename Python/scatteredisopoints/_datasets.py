@@ -331,8 +331,10 @@ def _choice_of(leaf: Any) -> str:
     """The remedy for a wrong array: lists those of a data set."""
 
     def names(attributes: Any) -> str:
-        found = (attributes.GetArrayName(i) for i in range(attributes.GetNumberOfArrays()))
-        return ", ".join(each or "(unnamed)" for each in found if each != "vtkGhostType") or "none"
+        found = [attributes.GetArrayName(i) for i in range(attributes.GetNumberOfArrays())]
+        of_text = _names_of_text(attributes)
+        return ", ".join(f"{each} (text)" if each in of_text else each or "(unnamed)"
+                         for each in found if each != "vtkGhostType") or "none"
 
     of_points, of_cells = names(leaf.GetPointData()), names(leaf.GetCellData())
     if of_points == of_cells == "none":

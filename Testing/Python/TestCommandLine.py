@@ -248,6 +248,9 @@ class CommandLine(unittest.TestCase):
                    "open.csv": b'x,y,z,T\n1,2,3,4\n1,2,3,"5\n1,2,3,6\n', "nan.csv": b"x,y,z,T\nnan,1,2,3\n",
                    "head_open.csv": b'x,y,z,"T\n1,2,3,4\n', "long.csv": b'x,y,z,T\n1,2,3,"4\n' + 40_000 * b"1,2,3,4\n",
                    "minus.ply": pathlib.Path("big.ply").read_bytes().replace(b"vertex 3000", b"vertex -1")}
+        for i, property_ in enumerate((b"", b"property O x\n", b"property S0 x\n", b"property M8 x\n")):
+            damaged[f"kind{i}.ply"] = (b"ply\nformat binary_little_endian 1.0\nelement vertex 2\n" + property_ +
+                                      b"end_header\n" + bytes(64))
         for name, content in damaged.items():
             pathlib.Path(name).write_bytes(content)
         cases = [
@@ -272,11 +275,14 @@ class CommandLine(unittest.TestCase):
             ("contour head_open.csv T 5", 1, "a quote in line 1 is not closed"),
             ("contour long.csv T 5", 1, "a quote in line 2 is not closed"),
             ("probe nan.csv --grid 2,2,2", 1, "No sample has a finite position"),
-            ("probe a.csv --grid 1000000,1000000,1000000", 1, "Out of memory. Free memory"),
+            ("probe a.csv --grid 99999999,99999999,9999", 1, r"--grid 99999999,99999999,9999 would give 1e\+20 points, .*"
+             " at most 2147483647: choose fewer$"),
+            ("probe a.csv --line 0,0,0 1,0,0 --resolution 1000000000000000", 1, "Out of memory. Free memory"),
             ("contour a.csv T 0.3 --columns x,y,x", 1, "columns x, y, x are not different"),
             ("contour a.csv T 0.3 --columns x,y,q", 1, 'no "q": .* there are x, y, z, T$'),
             ("contour cut.ply T 0.3", 1, "cut.ply cannot be read: it ends after"), ("contour cut.npz T 1", 1, "zip"),
-            ("contour minus.ply T 0.3", 1, "its header is not that of a PLY file"),
+            *((f"contour {name}.ply x 0.3", 1, "its header is not that of a PLY file")
+              for name in ("minus", "kind0", "kind1", "kind2", "kind3")),
             ("contour cut.npy T 0.3", 1, "magic"), ("contour empty.csv T 0.3", 1, "it is empty"),
             ("contour head.csv T 0.3", 1, "no samples"), ("contour quotes.csv T 0.3", 1, "it is empty"),
             ("contour twice.csv T 0.3", 1, 'two columns have the name "x"'),

@@ -196,7 +196,8 @@ class Arrays(unittest.TestCase):
         for arguments, error, text in (
                 ((positions[:, :2], values), ValueError, r"\(100, 2\).*\(n, 3\).*zeros"),
                 ((positions.ravel(), values), ValueError, r"\(300,\).*\(n, 3\)"),
-                ((positions.T, values), ValueError, r"\(3, 100\).*positions\.T"),
+                ((positions.T, values), ValueError, r"\(3, 100\).*pass numpy.transpose\(positions\)$"),
+                ((np.zeros((3, 0)), values), ValueError, r"\(3, 0\).*: pass three coordinates of each$"),
                 ((3.0, values), ValueError, r"\(\).*\(n, 3\)"),
                 ((positions, 3.0), ValueError, r"values.*\(\).*\(100,\)"),
                 ((positions, values[:99]), ValueError, r"\(99,\).*\(100,\)"),
@@ -221,7 +222,8 @@ class Arrays(unittest.TestCase):
                 (dict(progress=3), TypeError, "progress"),
                 *((dict(triangles=wrong), ValueError, "^triangles cannot be .*: it is True or False")
                   for wrong in ("no", np.array([True, False]))),
-                *((dict(projection=wrong), ValueError, "projection") for wrong in (True, "cubes", 1.5)),
+                *((dict(projection=wrong), ValueError, 'projection cannot be .* or "none"$')
+                  for wrong in (True, "cubes", 1.5, type("Null", (), {"__str__": lambda _: "None"})())),
                 (dict(arrays={"a": values[:3]}), ValueError, "shape"), (dict(arrays=[values]), TypeError, "mapping"),
                 (dict(arrays={"values": values}), ValueError, "name"), (dict(gap=2), TypeError, "gap.*drop_gaps"),
                 (dict(size=2), TypeError, "size"), (dict(triangles, angle=30.0), TypeError, "angle"),

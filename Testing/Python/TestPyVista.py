@@ -627,7 +627,10 @@ class Probing(Warned):
         data["words"] = ["word"] * data.n_points
         for call, error, text in (
                 (lambda: data.scattered.probe([[0, 0, 0]], "plan"), ValueError, 'named "plan".*plane'),
-                (lambda: data.scattered.probe([[0, 0, 0]], ["plane", "words"]), TypeError, '"words" holds no numbers'),
+                (lambda: data.scattered.probe([[0, 0, 0]], ["plane", "words"]), TypeError,
+                 r'"words" holds no numbers.* the point arrays are: .*plane, .*words \(text\)'),
+                (lambda: data.scattered.probe([[0, 0, 0]], nearest_arrays="words"), ValueError,
+                 "nearest_arrays cannot have 'words': the array holds no numbers"),
                 (lambda: data.scattered.probe([[0, 0, 0]], "plane", preference="both"), ValueError, "preference"),
                 (lambda: data.scattered.probe([[0, 0, 0]], np.zeros(7)), ValueError, "7 values for a data set"),
                 (lambda: data.scattered.probe(pv.MultiBlock([data])), TypeError, "pass its blocks"),
