@@ -86,8 +86,8 @@ def readable(name: str, array: Any) -> np.ndarray:
 
 def shape_error(name: str, shape: tuple[int, ...], wanted: str) -> ValueError:
     """An error about positions of a wrong shape."""
-    remedy = (f"pass {name}.T" if len(shape) == 2 and shape[0] == 3 else
-              f"for {name} in a plane append zeros" if shape[1:] == (2,) else
+    remedy = (f"for {name} in a plane append zeros" if shape[1:] == (2,) else
+              f"pass numpy.transpose({name})" if len(shape) == 2 and shape[0] == 3 and shape[1] > 0 else
               "pass three coordinates of each")
     return ValueError(f"{name} have the shape {shape}, not {wanted}: {remedy}")
 
@@ -177,6 +177,17 @@ def further_arrays(arrays: Optional[Mapping[str, Any]], count: int) -> dict[str,
     if "values" in arrays:
         raise ValueError('an array cannot have the name "values", which is that of the values')
     return {name: checked_tensors(name, array, count) for name, array in by_name(arrays).items()}
+
+
+def nearest_names(listed: Any, of_text: Iterable[str]) -> set[str]:
+    """The names of arrays that take the nearest value, of one or several that are given."""
+    try:
+        names = {listed} if isinstance(listed, str) else {*listed}
+    except TypeError:
+        raise TypeError(f"nearest_arrays cannot be {listed!r}: give names of arrays") from None
+    for name in names.intersection(of_text):
+        raise ValueError(f"nearest_arrays cannot have {name!r}: the array holds no numbers")
+    return names
 
 
 def without_text(arrays: Any) -> tuple[Any, list[str]]:

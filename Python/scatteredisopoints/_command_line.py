@@ -20,7 +20,7 @@ from . import __version__
 from ._arrays import as_numpy
 from ._datasets import DataSamples
 from ._isosurface import Isosurface
-from ._lines_and_grids import lattice, line_between
+from ._lines_and_grids import check_size, lattice, line_between
 from ._option_types import OPTION_TYPES, BodyOptions, ContourOptions, SliceOptions
 from ._options import CONSTANTS, INTERPOLATIONS, check_names
 from ._paths import PYTHON_PLUGIN
@@ -117,6 +117,7 @@ def requested_places(given: argparse.Namespace, positions: np.ndarray) -> tuple[
         places, distances = line_between(begin, end, given.resolution)
         return places, {"Distance": distances}
     if given.grid:
+        check_size(f"--grid {','.join(map(str, given.grid))}", given.grid, "fewer")
         finite = positions[np.isfinite(positions).all(axis=1)]
         if len(finite) == 0:
             raise ValueError("No sample has a finite position, so there are no bounds for a grid.")

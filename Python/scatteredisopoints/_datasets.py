@@ -15,7 +15,7 @@ import numpy as np
 from ._arrays import (
     CELL, FLOAT, ID_TYPE, POINT, are_names, as_numpy, checksum, module_of, package_of, positions_of, readable,
     shape_error, values_of)
-from ._ghosts import excluded_cells, excluded_points, ghosts_of
+from ._ghosts import cell_arrays, excluded_cells, excluded_points, ghosts_of
 from ._library import Message
 from ._lines_and_grids import lattice
 from ._polydata import PolyDataMaker
@@ -127,7 +127,7 @@ def state_of(data: Any) -> tuple:
 
 def contents_of(data: Any, values: Optional[str]) -> tuple:
     """A value that changes with state_of(), and when NumPy changes what samples are loaded from, of which VTK has no
-    notice: coordinates and the array of this name. The samples of a composite are copies of all arrays."""
+    notice: coordinates, cells and the array of this name. The samples of a composite are copies of all arrays."""
     is_composite = data.IsA("vtkCompositeDataSet")
     sums = []
     for leaf in leaves(data):
@@ -136,6 +136,8 @@ def contents_of(data: Any, values: Optional[str]) -> tuple:
         arrays = list(_coordinates(leaf)) if leaf.IsA("vtkRectilinearGrid") else []
         if leaf.IsA("vtkPointSet") and leaf.GetPoints() is not None:
             arrays.append(leaf.GetPoints().GetData())
+        for cells in cell_arrays(leaf):
+            arrays += [cells.GetOffsetsArray(), cells.GetConnectivityArray()]
         for association in (POINT, CELL):
             arrays += [array for name, array, _ in named_arrays(leaf.GetAttributes(association))
                        if is_composite or name == values]
@@ -329,8 +331,10 @@ def _choice_of(leaf: Any) -> str:
     """The remedy for a wrong array: lists those of a data set."""
 
     def names(attributes: Any) -> str:
-        found = (attributes.GetArrayName(i) for i in range(attributes.GetNumberOfArrays()))
-        return ", ".join(each or "(unnamed)" for each in found if each != "vtkGhostType") or "none"
+        found = [attributes.GetArrayName(i) for i in range(attributes.GetNumberOfArrays())]
+        of_text = _names_of_text(attributes)
+        return ", ".join(f"{each} (text)" if each in of_text else each or "(unnamed)"
+                         for each in found if each != "vtkGhostType") or "none"
 
     of_points, of_cells = names(leaf.GetPointData()), names(leaf.GetCellData())
     if of_points == of_cells == "none":

@@ -189,9 +189,10 @@ def slice_samples(
     Returns
     -------
     Isosurface
-        Triangles, counterclockwise seen from the side to which the normal does not point, and arrays, which keep
-        their types: integers are rounded, and stay within the samples' range. One array without a name is called
-        "values". Errors and warnings are as in :func:`contour`.
+        Triangles, counterclockwise seen from the side to which the normal does not point, and arrays, which keep their
+        types: integers are rounded, and stay within the samples' range. With masked entries they become real numbers,
+        which may go beyond it. One array without a name is called "values". Errors and warnings are as in
+        :func:`contour`.
 
     Examples
     --------
@@ -244,11 +245,12 @@ def probe(
 
     Returns
     -------
-    Values of float64, shape (m,) or (m, c); those of integers stay within the range of the samples. The nearest value
-    keeps float32, float64 and integers, which are 0 outside if they cannot be the number. Of other types, bool gives
-    uint8, float16 float32, and longdouble float64; integers with masked entries give float32 up to 16 bits, and float64
-    above. With gradient, a pair of these and of gradients, shape (m, 3) or (m, c, 3); for m, the shape of the places
-    without their last axis. A dict of arrays gives dicts. Errors and warnings are as in :func:`contour`.
+    Values of float64, shape (m,) or (m, c); those of integers without masked entries stay within the samples' range.
+    The nearest value keeps float32, float64 and integers, which are 0 outside if they cannot be the number. Of other
+    types, bool gives uint8, float16 float32, and longdouble float64; integers with masked entries give float32 up to 16
+    bits, and float64 above. With gradient, a pair of these and of gradients, shape (m, 3) or (m, c, 3); for m, the
+    shape of the places without their last axis. A dict of arrays gives dicts. Errors and warnings are as in
+    :func:`contour`.
 
     Examples
     --------

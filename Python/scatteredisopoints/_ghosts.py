@@ -42,7 +42,7 @@ def excluded_cells(data: Any) -> Optional[np.ndarray]:
     if cells is not None:
         excluded |= (cells & (DUPLICATE_CELL | REFINED_CELL | HIDDEN_CELL)) != 0
     has_hidden = points is not None and (points & HIDDEN_POINT).any()
-    if has_hidden or _cell_arrays(data):
+    if has_hidden or cell_arrays(data):
         cell, point = cell_points(data)
         if points is not None and has_hidden:
             excluded[cell[(points[point] & HIDDEN_POINT) != 0]] = True
@@ -73,7 +73,7 @@ def hide_points(data: Any, are_hidden: np.ndarray) -> None:
         data.GetAttributes(association).AddArray(as_vtk(package_of(data), "vtkGhostType", marks))
 
 
-def _cell_arrays(data: Any) -> list[Any]:
+def cell_arrays(data: Any) -> list[Any]:
     """The vtkCellArrays of a data set, in the order of its cells; empty for structured data sets."""
     if data.IsA("vtkPolyData"):
         return [data.GetVerts(), data.GetLines(), data.GetPolys(), data.GetStrips()]
@@ -83,7 +83,7 @@ def _cell_arrays(data: Any) -> list[Any]:
 
 def cell_points(data: Any) -> tuple[np.ndarray, np.ndarray]:
     """All pairs of a cell and one of its points, as two arrays of ids."""
-    arrays = _cell_arrays(data)
+    arrays = cell_arrays(data)
     if arrays:
         sizes = np.concatenate([np.diff(as_numpy(array.GetOffsetsArray())) for array in arrays])
         points = np.concatenate([as_numpy(array.GetConnectivityArray()) for array in arrays])

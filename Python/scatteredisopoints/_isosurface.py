@@ -17,7 +17,7 @@ from . import _library
 from ._arrays import checked_tensors, package_of, positions_of, readable
 from ._measures import Measures, Piece, measure
 from ._options import number_of, thread_count
-from ._polydata import PolyDataMaker
+from ._polydata import PolyDataMaker, locked
 from ._progress import Progress, shown_progress
 
 
@@ -72,6 +72,7 @@ class Isosurface:
         self._isovalues = isovalues  # of points; None without
         self._is_capped = is_capped
         self._measures: Optional[Measures] = None
+        self._has_lost_splats = False  # by points that were assigned
 
     def __getstate__(self) -> dict[str, Any]:
         return {**vars(self), "_polydata": None}  # VTK's objects cannot be pickled
@@ -82,10 +83,10 @@ class Isosurface:
 
     def _lock_arrays(self) -> None:
         """Makes all arrays read-only, because areas and volumes are computed once."""
-        self._points = _locked(self._points)
-        self._triangles = None if self._triangles is None else _locked(self._triangles)
+        self._points = locked(self._points)
+        self._triangles = None if self._triangles is None else locked(self._triangles)
         for name in ("arrays", "splat_shapes", "cell_arrays"):
-            setattr(self, name, {key: _locked(array) for key, array in getattr(self, name).items()})
+            setattr(self, name, {key: locked(array) for key, array in getattr(self, name).items()})
 
     @property
     def points(self) -> np.ndarray:
@@ -98,9 +99,14 @@ class Isosurface:
         points = positions_of(positions, "points")
         if len(points) != len(self):
             raise ValueError(f"points have the shape {points.shape}, not {self._points.shape}: give one for each")
-        self._points = _locked(points.copy())
+        are_finite = np.isfinite(points).all(axis=1)
+        if not are_finite.all():
+            raise ValueError(f"{np.count_nonzero(~are_finite)} of {len(points)} points are not finite: give finite"
+                             " coordinates")
+        self._points = locked(points.copy())
         self._measures = self._polydata = None
         computed = [self._make_polydata.normals, "Radius" if self.splat_shapes else None]
+        self._has_lost_splats |= bool(self.splat_shapes)
         self.arrays = {name: array for name, array in self.arrays.items() if name not in computed}
         self.splat_shapes = {}
 
@@ -157,8 +163,8 @@ class Isosurface:
         return _imported("trimesh").Trimesh(self.points.copy(), self.triangles.copy(), process=False)
 
     def save(self, path: Union[str, os.PathLike[str]]) -> None:
-        """Writes a file, with all arrays of points that its format can hold. An earlier one keeps its permissions, and
-        stays if this fails.
+        """Writes a file, with all arrays of points that its format can hold. An earlier one keeps its owner and
+        permissions, as far as the system allows, and stays if this fails.
 
         Parameters
         ----------
@@ -181,7 +187,7 @@ class Isosurface:
     @property
     def region_ids(self) -> np.ndarray:
         """The index in :attr:`pieces` of each triangle's piece, shape (m,): for an array RegionId, as VTK calls it."""
-        return _locked(self._measured("pieces").region_ids)
+        return locked(self._measured("pieces").region_ids)
 
     @property
     def area(self) -> Union[float, np.ndarray]:
@@ -247,6 +253,9 @@ class Isosurface:
         """splats(). Callbacks are those of _library.Callbacks."""
         if self.triangles is not None:
             raise ValueError("Triangles have no splats: draw them as they are, or extract points.")
+        if self._has_lost_splats:
+            raise ValueError("The surface has no splats any more, since points were assigned: make splats() before, and"
+                             " assign points to these.")
         if not self.splat_shapes or self.normals is None:
             raise ValueError("The surface has no splats: extract points with compute_splats and"
                              " compute_normals.")
@@ -277,13 +286,6 @@ class Isosurface:
         if self.triangles is not None:
             shown += f", {len(self.triangles)} triangles"
         return f"<Isosurface: {shown}; arrays: {', '.join(self.arrays) or 'none'}>"
-
-
-def _locked(array: np.ndarray) -> np.ndarray:
-    """A read-only view."""
-    view = array.view()
-    view.flags.writeable = False
-    return view
 
 
 def _imported(package: str) -> Any:

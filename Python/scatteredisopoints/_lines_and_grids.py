@@ -28,6 +28,13 @@ def lattice(axes: list[np.ndarray]) -> np.ndarray:
     return np.stack([x, y, z], axis=-1).reshape(-1, 3)
 
 
+def check_size(given: str, counts: Any, remedy: str) -> None:
+    """Raises ValueError for more points, along three axes, than a grid has."""
+    size = np.prod(np.asarray(counts, dtype=float))
+    if not size <= MOST_POINTS:
+        raise ValueError(f"{given} would give {size:.3g} points, and a grid has at most {MOST_POINTS}: choose {remedy}")
+
+
 def box_of(bounds: Any) -> np.ndarray:
     """Bounds in the shape (3, 2)."""
     try:
@@ -61,8 +68,6 @@ def grid_in(box: np.ndarray, dimensions: Any, spacing: Any) -> dict[str, Any]:
         counts = np.where(sizes > 0, wanted, 1)
         box = np.where(counts[:, None] > 1, box, box.mean(axis=1, keepdims=True))
         wanted = np.where(counts > 1, sizes / np.maximum(counts - 1, 1), 1)
-    if not np.prod(counts) <= MOST_POINTS:
-        raise ValueError(f"{name} {given!r} would give {np.prod(counts):.3g} points, and a grid has at most"
-                         f" {MOST_POINTS}: choose {'a greater spacing' if dimensions is None else 'fewer'}, or smaller"
-                         " bounds")
+    check_size(f"{name} {given!r}", counts, "a greater spacing, or smaller bounds" if dimensions is None else
+               "fewer, or smaller bounds")
     return dict(dimensions=counts.astype(int).tolist(), spacing=wanted.tolist(), origin=box[:, 0].tolist())

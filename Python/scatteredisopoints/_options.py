@@ -169,9 +169,10 @@ def number_of(name: str, value: Any, default: Any) -> Any:
     if OPTION_TYPES.get(name) is bool:
         return int(switch(name, value))
     constants = CONSTANTS.get(name, {})
-    kind = _listed(constants) if constants else "a real number" if isinstance(default, float) else "a whole number"
+    is_projection = name == "projection"
+    kind = _listed([*constants, *["none"] * is_projection]) if constants else "a real number" if isinstance(default, float) else "a whole number"
     error = ValueError(f"{name} cannot be {shown(value)}: it is {kind}")
-    if name == "projection" and str(value).lower() == "none":
+    if is_projection and (value is None or isinstance(value, str) and value.lower() == "none"):
         value = "no_projection"
     if isinstance(value, str):
         value = constants.get(value.lower())

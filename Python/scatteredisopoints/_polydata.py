@@ -64,8 +64,7 @@ class PolyDataMaker:
         def arrays(named: Mapping[str, np.ndarray], id_types: Collection[str] = ()) -> Iterator[Any]:
             for name, array in named.items():
                 if shares_memory:
-                    array = array.view()
-                    array.flags.writeable = True
+                    array = _unlocked(array)
                 is_id_type = name in id_types and array.dtype == np.int64
                 yield as_vtk(package, name, array, id_type if is_id_type else None)
 
@@ -98,6 +97,16 @@ class PolyDataMaker:
         if self.wraps:
             return importlib.import_module("pyvista").PolyData(data)
         return data
+
+
+def locked(array: np.ndarray) -> np.ndarray:
+    """A view of the same memory that stays read-only: NumPy refuses to make it writable."""
+    return np.asarray(memoryview(array).toreadonly())
+
+
+def _unlocked(array: np.ndarray) -> np.ndarray:
+    """The array that locked() was called for."""
+    return getattr(array.base, "obj", array)
 
 
 def as_vtk(package: str, name: str, array: np.ndarray, data_type: Optional[int] = None) -> Any:

@@ -287,7 +287,9 @@ def _read_ply(path: str) -> dict[str, np.ndarray]:
             kind = np.dtype([(name, np.dtype(PLY_TYPES.get(each, each)).newbyteorder(order))
                              for _, each, name in properties])
             count = int(header[begin][2])
-            if header[0] != ["ply"] or header[begin][1] != "vertex" or not header[begin][2].isdecimal():
+            is_of_numbers = kind.itemsize > 0 and all(kind[name].kind in "iuf" for name in kind.names)
+            if header[0] != ["ply"] or header[begin][1] != "vertex" or not header[begin][2].isdecimal() or (
+                    not is_of_numbers):
                 raise ValueError
         except (LookupError, StopIteration, TypeError, ValueError):
             raise ValueError("its header is not that of a PLY file that begins with vertices of numbers") from None

@@ -16,8 +16,8 @@ import numpy as np
 
 from . import _datasets, _library
 from ._arrays import (
-    are_names, as_numpy, by_name, checked_tensors, describe_masked, further_arrays, levels_of, negated, positions_of,
-    readable, values_of, without_text)
+    are_names, as_numpy, by_name, checked_tensors, describe_masked, further_arrays, levels_of, nearest_names, negated,
+    positions_of, readable, values_of, without_text)
 from ._bodies import body_with_warnings
 from ._cuts import Normal
 from ._interpolator import Interpolator
@@ -416,6 +416,8 @@ class Samples:
         if with_gradients and is_nearest:
             raise ValueError('the method "nearest" has no gradients: use another one')
         arrays, of_text = without_text(arrays)
+        if nearest_arrays is not None:
+            nearest_arrays = nearest_names(nearest_arrays, [*of_text, *self._of_text])
         many = by_name(arrays)
         points, shape = _datasets.place_positions(places)
         with shown_progress(progress, "Probing") as report, self._in_call(threads):
@@ -521,11 +523,12 @@ class Samples:
     def _has_global_ids(self, name: str) -> bool:
         return self._ids.get(name) == _datasets.GLOBAL_IDS
 
-    def _nearest(self, many: Mapping[str, Any], listed: Union[str, Iterable[str]]) -> set[str]:
+    def _nearest(self, many: Mapping[str, Any], listed: Iterable[str]) -> set[str]:
         """Which of several arrays take the value of the nearest sample: those with ids, and listed ones."""
-        names = {listed} if isinstance(listed, str) else set(listed)
+        names = set(listed)
         for name in names.difference(many):
-            raise ValueError(f"nearest_arrays cannot have {name!r}: {hint(str(name), many)}")
+            remedy = hint(str(name), many) if many else "there are no arrays"
+            raise ValueError(f"nearest_arrays cannot have {name!r}: {remedy}")
 
         def has_ids(array: Any) -> bool:
             array = self._name if array is None else array

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Collection, Mapping, Optional, Sequence
 import numpy as np
 
 from . import _datasets, _library
-from ._arrays import as_numpy, levels_of, readable, without_text
+from ._arrays import as_numpy, levels_of, nearest_names, readable, without_text
 from ._cuts import Cut, Normal, make_cut, rounded, shares_to_zero
 from ._isosurface import Isosurface, describe_not_finite
 from ._options import INTERPOLATIONS, make_probe_options, make_slice_options, named
@@ -34,6 +34,7 @@ def slice_with_warnings(
         raise ValueError("An offset is not a number. Choose numbers as offsets.")
     chosen = make_slice_options(options)
     arrays, of_text = without_text(arrays)
+    nearest_arrays = nearest_names(nearest_arrays, [*of_text, *samples._of_text])
     with shown_progress(progress, "Slicing") as report:
         made, messages = compute_slice(
             samples, cut, levels, chosen, arrays, method, threads, report, nearest_arrays)

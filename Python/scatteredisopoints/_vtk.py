@@ -37,7 +37,7 @@ class _Contour(ContourValues, ScatteredAlgorithm):
 
     _triangles = False
     _has_polygons = False  # whether the output has the points' polygons
-    _had_surface = False  # in an earlier update
+    _with_surface: Any = None  # the samples that had one in an earlier update
 
     def _output_class(self, data: Any) -> type:
         if not (self._values["ContourBlocks"] and isinstance(data, vtkCompositeDataSet)):
@@ -45,12 +45,14 @@ class _Contour(ContourValues, ScatteredAlgorithm):
         return vtkMultiBlockDataSet if data.IsA("vtkUniformGridAMR") else type(data)
 
     def _compute(self, data: Any, output: Any) -> list[_library.Message]:
+        samples = self._array_choice(), _datasets.state_of(data)
         messages = (self._contour_blocks(data, output) if isinstance(output, vtkCompositeDataSet) else
                     self._contour_all(data, output))
-        if self._had_surface:  # animations begin and end where surfaces do
+        if self._with_surface == samples:  # animations begin and end where surfaces do
             messages = [replace(message, is_warning=False) if message.code == _library.ISOVALUE_AT_END else message
                         for message in messages]
-        self._had_surface |= self._counts["ExtractedPoints"] > 0
+        if self._counts["ExtractedPoints"] > 0:
+            self._with_surface = samples
         return messages
 
     def _contour_all(self, data: Any, output: Any) -> list[_library.Message]:

@@ -12,10 +12,11 @@ import os
 import re
 import secrets
 import shutil
+import stat
 import warnings
 import zipfile
 from pathlib import Path
-from typing import Any, Callable, Iterator, Union
+from typing import Any, Callable, Iterator, Optional, Union
 
 import numpy as np
 
@@ -46,36 +47,64 @@ def writer_for(path: str, are_triangles: bool) -> Writer:
 
 @contextlib.contextmanager
 def file_to_write(path: str) -> Iterator[str]:
-    """The name of a file that takes the place of another one, and its permissions, unless what writes it fails. A
-    symbolic link stays, and the file that it names is replaced; devices and pipes are written in place. Raises OSError
-    at once if the file cannot be written."""
-    if os.path.exists(path) and not os.path.isfile(path):
-        yield path
-        return
-    name, path = os.path.basename(path), os.path.realpath(path)
-    folder = os.path.dirname(path)
-    if not os.path.isdir(folder):
-        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), path)
-    # Nobody can guess the name of this folder and put a link there.
-    private = os.path.join(folder, f".{secrets.token_hex(8)}")
-    target = os.path.join(private, name)
+    """The name of a file that takes the place of another one, and its owner and permissions, unless what writes it
+    fails. A symbolic link stays, and the file that it names is replaced; devices and pipes are written in place. Raises
+    OSError, with the path, at once if the file cannot be written."""
+    name, real, private = os.path.basename(path), os.path.realpath(path), ""
+    folder = os.path.dirname(real)
     try:
+        mode = _mode_of(path)
+        if mode is not None and not stat.S_ISREG(mode):
+            yield path
+            return
+        if os.name == "nt" and mode is not None and not mode & stat.S_IWRITE:  # which Windows does not replace
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+        if not os.path.isdir(folder):
+            raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT))
+        # Nobody can guess the name of this folder and put a link there.
+        private = os.path.join(folder, f".{secrets.token_hex(8)}")
         # tempfile.mkdtemp() makes folders whose files, on Windows, stay those of one user when they are moved.
         os.mkdir(private, 0o777 if os.name == "nt" else 0o700)
-        yield target
-        if not os.path.exists(target):
+        yield os.path.join(private, name)
+        if not os.path.exists(os.path.join(private, name)):
             raise OSError(f"{path} cannot be written: is the disk full?")
-        if os.path.exists(path):
-            shutil.copymode(path, target)
-        for further in {*os.listdir(private)} - {name}:  # some formats of meshio are several files
-            os.replace(os.path.join(private, further), os.path.join(folder, further))
-        os.replace(target, path)
+        # Some formats of meshio are several files: the one that names the others comes last.
+        for each in sorted(os.listdir(private), key=lambda each: each == name):
+            _replace(os.path.join(private, each),
+                     real if each == name else os.path.realpath(os.path.join(folder, each)))
     except OSError as error:
-        if error.filename in (private, target):
+        is_of_path = error.filename is None or private and str(error.filename).startswith(private)
+        if error.errno is not None and is_of_path:
             raise OSError(error.errno, error.strerror, path) from error
         raise
     finally:
-        shutil.rmtree(private, ignore_errors=True)
+        if private:
+            shutil.rmtree(private, ignore_errors=True)
+
+
+def _mode_of(path: str) -> Optional[int]:
+    """The type and permissions of a file; None if there is none. Raises OSError for links in a loop."""
+    try:
+        return os.stat(path).st_mode
+    except FileNotFoundError:
+        return None
+
+
+def _replace(made: str, path: str) -> None:
+    """Moves a file of this process to the place of another one, with its owner, group and permissions. Nobody gets more
+    permissions if the system keeps a group to itself; programs do not stay privileged."""
+    if hasattr(os, "chown") and os.path.exists(path):
+        old = os.stat(path)
+        mode = old.st_mode & 0o777  # without those to run as the owner
+        try:
+            os.chown(made, -1, old.st_gid)
+        except OSError:
+            of_both = mode & mode >> 3 & 0o007
+            mode = mode & 0o700 | of_both << 3 | of_both
+        with contextlib.suppress(OSError):
+            os.chown(made, old.st_uid, -1)
+        os.chmod(made, mode)
+    os.replace(made, path)
 
 
 def _columns(surface: Isosurface) -> Iterator[tuple[str, np.ndarray]]:

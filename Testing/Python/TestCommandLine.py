@@ -2,6 +2,7 @@
 """The command line, in a folder of its own; files of VTK where PyVista is installed."""
 
 import contextlib
+import errno
 import importlib.util
 import io
 import os
@@ -247,6 +248,9 @@ class CommandLine(unittest.TestCase):
                    "open.csv": b'x,y,z,T\n1,2,3,4\n1,2,3,"5\n1,2,3,6\n', "nan.csv": b"x,y,z,T\nnan,1,2,3\n",
                    "head_open.csv": b'x,y,z,"T\n1,2,3,4\n', "long.csv": b'x,y,z,T\n1,2,3,"4\n' + 40_000 * b"1,2,3,4\n",
                    "minus.ply": pathlib.Path("big.ply").read_bytes().replace(b"vertex 3000", b"vertex -1")}
+        for i, property_ in enumerate((b"", b"property O x\n", b"property S0 x\n", b"property M8 x\n")):
+            damaged[f"kind{i}.ply"] = (b"ply\nformat binary_little_endian 1.0\nelement vertex 2\n" + property_ +
+                                      b"end_header\n" + bytes(64))
         for name, content in damaged.items():
             pathlib.Path(name).write_bytes(content)
         cases = [
@@ -271,11 +275,14 @@ class CommandLine(unittest.TestCase):
             ("contour head_open.csv T 5", 1, "a quote in line 1 is not closed"),
             ("contour long.csv T 5", 1, "a quote in line 2 is not closed"),
             ("probe nan.csv --grid 2,2,2", 1, "No sample has a finite position"),
-            ("probe a.csv --grid 1000000,1000000,1000000", 1, "Out of memory. Free memory"),
+            ("probe a.csv --grid 99999999,99999999,9999", 1, r"--grid 99999999,99999999,9999 would give 1e\+20 points, .*"
+             " at most 2147483647: choose fewer$"),
+            ("probe a.csv --line 0,0,0 1,0,0 --resolution 1000000000000000", 1, "Out of memory. Free memory"),
             ("contour a.csv T 0.3 --columns x,y,x", 1, "columns x, y, x are not different"),
             ("contour a.csv T 0.3 --columns x,y,q", 1, 'no "q": .* there are x, y, z, T$'),
             ("contour cut.ply T 0.3", 1, "cut.ply cannot be read: it ends after"), ("contour cut.npz T 1", 1, "zip"),
-            ("contour minus.ply T 0.3", 1, "its header is not that of a PLY file"),
+            *((f"contour {name}.ply x 0.3", 1, "its header is not that of a PLY file")
+              for name in ("minus", "kind0", "kind1", "kind2", "kind3")),
             ("contour cut.npy T 0.3", 1, "magic"), ("contour empty.csv T 0.3", 1, "it is empty"),
             ("contour head.csv T 0.3", 1, "no samples"), ("contour quotes.csv T 0.3", 1, "it is empty"),
             ("contour twice.csv T 0.3", 1, 'two columns have the name "x"'),
@@ -362,6 +369,10 @@ class CommandLine(unittest.TestCase):
             self.assertEqual(run("contour", "a.npz", "T", 0.3, "-o", name)[0], 0)
             self.assertTrue(os.path.islink(name) and pathlib.Path(name).read_bytes().startswith(b"ply"))
         self.assertEqual(set(os.listdir("there")), {"link.ply.data", "dangling.ply.data"})
+        os.symlink("loop.ply", "loop.ply")
+        errors = run("contour", "a.npz", "T", 0.3, "-o", "loop.ply")[2]
+        self.assertRegex(errors, f"error: loop.ply: {os.strerror(errno.ELOOP)}")
+        self.assertTrue(os.path.islink("loop.ply"))
 
     @unittest.skipIf(sys.platform == "win32", "permissions are others")
     def test_permissions(self):
@@ -375,6 +386,46 @@ class CommandLine(unittest.TestCase):
                 self.assertEqual(os.stat(name).st_mode & 0o777, mode or 0o640)
         finally:
             os.umask(before)
+
+    @unittest.skipIf(sys.platform == "win32", "permissions are others")
+    def test_owners(self):
+        """A file keeps its owner and group, or else gives nobody more permissions; none runs as another user."""
+        def replaced(mode, chown=os.chown):
+            for name in ("two.xdmf", "two.h5"):
+                with contextlib.suppress(FileNotFoundError):
+                    os.remove(name)
+                pathlib.Path(name).write_text("earlier")
+                if os.geteuid() == 0:
+                    os.chown(name, 12345, 54321)
+                os.chmod(name, mode)
+            with mock.patch("os.chown", chown), _writing.file_to_write("two.xdmf") as path:
+                for each in (path, path.replace("xdmf", "h5")):
+                    pathlib.Path(each).write_text("later")
+            found = [os.stat(name) for name in ("two.xdmf", "two.h5")]
+            self.assertEqual(found[0].st_mode, found[1].st_mode)
+            self.assertEqual(pathlib.Path("two.h5").read_text(), "later")
+            return [(each.st_uid, each.st_gid) for each in found], oct(found[0].st_mode & 0o7777)
+
+        owner = (12345, 54321) if os.geteuid() == 0 else (os.geteuid(), os.stat(".").st_gid)
+        self.assertEqual(replaced(0o6751), ([owner] * 2, "0o751"))
+        self.assertEqual(replaced(0o444), ([owner] * 2, "0o444"))
+        for mode, expected in ((0o664, "0o644"), (0o640, "0o600"), (0o604, "0o600"), (0o4755, "0o755")):
+            refused = mock.Mock(side_effect=PermissionError(1, "Operation not permitted"))
+            self.assertEqual(replaced(mode, refused)[1], expected)
+
+    def test_what_cannot_be_replaced(self):
+        """Errors name the file, which stays."""
+        pathlib.Path("made.ply").write_text("earlier")
+        os.chmod("made.ply", 0o444)
+        with mock.patch("os.name", "nt"):  # where read-only files cannot be replaced
+            with self.assertRaises(PermissionError) as caught, _writing.file_to_write("made.ply"):
+                pass
+        self.assertEqual(caught.exception.filename, "made.ply")
+        os.chmod("made.ply", 0o644)
+        with self.assertRaises(OSError) as caught, _writing.file_to_write("made.ply"):
+            raise OSError(28, "No space left on device")  # as file.write() does
+        self.assertEqual((caught.exception.filename, caught.exception.errno), ("made.ply", 28))
+        self.assertEqual(pathlib.Path("made.ply").read_text(), "earlier")
 
     @unittest.skipIf(sys.platform == "win32", "there are no such files")
     def test_pipes_and_devices(self):

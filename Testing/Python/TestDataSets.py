@@ -13,7 +13,7 @@ from scatteredisopoints._options import number_of, property_name
 from vtk_data import (
     amr_of, assert_same, blocks_of, centers_in, cloud_of, configured, named, observed, points_of, positions_in,
     set_all)
-from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkBitArray, vtkMath
 from vtkmodules.vtkCommonDataModel import (
     VTK_EMPTY_CELL, VTK_TETRA, vtkAMRUtilities, vtkCellArray, vtkCylinder, vtkHyperTreeGrid, vtkImageData,
@@ -209,6 +209,18 @@ class DataSetsTest(unittest.TestCase):
         data.GetPoints().Reset()
         with self.assertRaisesRegex(ValueError, "positions.*changed"):
             samples.replace_values(np.zeros(3000))
+
+    def test_results_share_their_memory(self):
+        """Outputs of filters take the arrays of results, which only those have, without a copy."""
+        data, isovalue = prepared(cloud())
+        surface = contour(data, "distance", isovalue)
+        shared, copy = surface._into_polydata(), surface.polydata
+        for name in (None, *surface.arrays):
+            memory, copied = (vtk_to_numpy(each.GetPointData().GetArray(name) if name else each.GetPoints().GetData())
+                              for each in (shared, copy))
+            ours = surface.arrays[name] if name else surface.points
+            self.assertTrue(np.shares_memory(memory, ours), name)
+            self.assertFalse(np.shares_memory(copied, ours), name)
 
     def test_malformed_data(self):
         data = polygons()

@@ -196,7 +196,8 @@ class Arrays(unittest.TestCase):
         for arguments, error, text in (
                 ((positions[:, :2], values), ValueError, r"\(100, 2\).*\(n, 3\).*zeros"),
                 ((positions.ravel(), values), ValueError, r"\(300,\).*\(n, 3\)"),
-                ((positions.T, values), ValueError, r"\(3, 100\).*positions\.T"),
+                ((positions.T, values), ValueError, r"\(3, 100\).*pass numpy.transpose\(positions\)$"),
+                ((np.zeros((3, 0)), values), ValueError, r"\(3, 0\).*: pass three coordinates of each$"),
                 ((3.0, values), ValueError, r"\(\).*\(n, 3\)"),
                 ((positions, 3.0), ValueError, r"values.*\(\).*\(100,\)"),
                 ((positions, values[:99]), ValueError, r"\(99,\).*\(100,\)"),
@@ -221,7 +222,8 @@ class Arrays(unittest.TestCase):
                 (dict(progress=3), TypeError, "progress"),
                 *((dict(triangles=wrong), ValueError, "^triangles cannot be .*: it is True or False")
                   for wrong in ("no", np.array([True, False]))),
-                *((dict(projection=wrong), ValueError, "projection") for wrong in (True, "cubes", 1.5)),
+                *((dict(projection=wrong), ValueError, 'projection cannot be .* or "none"$')
+                  for wrong in (True, "cubes", 1.5, type("Null", (), {"__str__": lambda _: "None"})())),
                 (dict(arrays={"a": values[:3]}), ValueError, "shape"), (dict(arrays=[values]), TypeError, "mapping"),
                 (dict(arrays={"values": values}), ValueError, "name"), (dict(gap=2), TypeError, "gap.*drop_gaps"),
                 (dict(size=2), TypeError, "size"), (dict(triangles, angle=30.0), TypeError, "angle"),
@@ -364,11 +366,15 @@ class Results(unittest.TestCase):
             for array in (each.points, each.triangles, each.region_ids, *each.arrays.values()):
                 with self.assertRaisesRegex(ValueError, "read-only"):
                     array *= 2
+                with self.assertRaisesRegex(ValueError, "cannot set WRITEABLE flag"):
+                    array.flags.writeable = True
             with self.assertRaises(AttributeError):
                 each.triangles = surface.triangles
             doubled = 2 * each.points
             each.points = doubled
             doubled[:] = 7.0
+            with self.assertRaisesRegex(ValueError, "cannot set WRITEABLE flag"):
+                each.points.flags.writeable = True
             np.testing.assert_allclose(each.area, 4 * area)
             np.testing.assert_allclose(each.volume, 8 * volume)
             self.assertAlmostEqual(each.pieces[0].area / pieces[0].area, 4)
@@ -376,13 +382,14 @@ class Results(unittest.TestCase):
         points = contour(positions, values, 0.3)
         points.points = points.points + 1
         self.assertEqual((list(points.arrays), points.radii), (["values"], None))
-        with self.assertRaisesRegex(ValueError, "no splats"):
+        with self.assertRaisesRegex(ValueError, "no splats any more, since points were assigned"):
             points.splats()
         own = contour(positions, values, 0.3, arrays={"Normals": positions}, compute_normals=False, triangles=True)
         own.points = own.points.astype(np.float32).tolist()
         self.assertEqual(own.arrays.keys(), {"Normals", "values"})
         for wrong, text in ((own.points[1:], "points have the shape .*: give one for each"),
-                            (own.points[:, :2], r"points have the shape .*, not \(n, 3\)")):
+                            (own.points[:, :2], r"points have the shape .*, not \(n, 3\)"),
+                            (np.where(own.points > 0.5, np.nan, own.points), "points are not finite: give finite")):
             with self.assertRaisesRegex(ValueError, text):
                 own.points = wrong
 

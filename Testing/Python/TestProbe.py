@@ -82,6 +82,16 @@ class Values(unittest.TestCase):
         np.testing.assert_array_equal(samples.probe(PLACES, nearest_arrays="values"), material[nearest])
         with self.assertRaisesRegex(ValueError, "nearest_arrays cannot have 'materials': did you mean material?"):
             probe(POSITIONS, arrays, PLACES, nearest_arrays=["materials"])
+        texts = {**arrays, "words": np.full(len(POSITIONS), "word")}
+        for given, listed, error, text in (
+                (arrays, 5, TypeError, "nearest_arrays cannot be 5: give names of arrays"),
+                (texts, "words", ValueError, "nearest_arrays cannot have 'words': the array holds no numbers"),
+                (None, ["material"], ValueError, "nearest_arrays cannot have 'material': there are no arrays")):
+            with self.assertRaisesRegex(error, text):
+                slice_samples(POSITIONS, "x", arrays=given, nearest_arrays=listed)
+            if given:
+                with self.assertRaisesRegex(error, text):
+                    probe(POSITIONS, given, PLACES, nearest_arrays=listed)
 
     def test_integers_stay_within_the_range_of_the_samples(self):
         """By all methods, also where fits of the same numbers would leave it."""

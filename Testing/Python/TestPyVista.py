@@ -206,6 +206,21 @@ class Accessor(Warned):
                     self.assertFalse(found.points.tobytes() == before.points.tobytes()
                                      and found[name].tobytes() == before[name].tobytes())
 
+    def test_changes_of_cells_are_noticed(self):
+        """Cells are samples at their centers."""
+        tetrahedra = grid((10, 11, 12)).to_tetrahedra()
+        for data in (tetrahedra, pv.Sphere(), pv.MultiBlock([tetrahedra.copy()])):
+            block = data[0] if isinstance(data, pv.MultiBlock) else data
+            block.cell_data["number"] = np.arange(block.n_cells)
+            cells = block.GetPolys() if isinstance(block, pv.PolyData) else block.GetCells()
+            corners = _arrays.as_numpy(cells.GetConnectivityArray())
+            data.scattered.body("number", preference="cell")
+            before = data.scattered.body("number", preference="cell")
+            corners[:] = corners[::-1].copy()
+            found, expected = (each.scattered.body("number", preference="cell") for each in (data, data.copy()))
+            np.testing.assert_array_equal(found.points, expected.points)
+            self.assertFalse(np.array_equal(found.points, before.points))
+
     def test_calls_meanwhile(self):
         """A call on another array, as of another thread, leaves a call its array."""
         data = cloud()
@@ -612,7 +627,10 @@ class Probing(Warned):
         data["words"] = ["word"] * data.n_points
         for call, error, text in (
                 (lambda: data.scattered.probe([[0, 0, 0]], "plan"), ValueError, 'named "plan".*plane'),
-                (lambda: data.scattered.probe([[0, 0, 0]], ["plane", "words"]), TypeError, '"words" holds no numbers'),
+                (lambda: data.scattered.probe([[0, 0, 0]], ["plane", "words"]), TypeError,
+                 r'"words" holds no numbers.* the point arrays are: .*plane, .*words \(text\)'),
+                (lambda: data.scattered.probe([[0, 0, 0]], nearest_arrays="words"), ValueError,
+                 "nearest_arrays cannot have 'words': the array holds no numbers"),
                 (lambda: data.scattered.probe([[0, 0, 0]], "plane", preference="both"), ValueError, "preference"),
                 (lambda: data.scattered.probe([[0, 0, 0]], np.zeros(7)), ValueError, "7 values for a data set"),
                 (lambda: data.scattered.probe(pv.MultiBlock([data])), TypeError, "pass its blocks"),

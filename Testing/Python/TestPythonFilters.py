@@ -56,6 +56,22 @@ class PythonFilters(unittest.TestCase):
                         getattr(filter_, "Set" + name)(value)
                     self.assertEqual(*(getattr(filter_, "Get" + name)() for filter_ in pair), (name, value))
 
+    def test_ends_of_the_values_of_each_input(self):
+        """A surface of earlier samples excuses no isovalue at an end of others."""
+        for class_ in (ISOPOINTS, ISOSURFACE):
+            for keeps in (0, 1):
+                first, other = cloud(), cloud(4000)
+                filter_ = set_all(configured(class_, first, [0.3]), KeepTree=keeps)
+                texts = observed(filter_)
+                filter_.Update()
+                filter_.SetValue(0, first.GetPointData().GetScalars().GetRange()[0])
+                filter_.Update()
+                self.assertEqual([len(texts[event]) for event in ("WarningEvent", "MessageEvent")], [0, 1])
+                filter_.SetInputData(other)
+                filter_.SetValue(0, other.GetPointData().GetScalars().GetRange()[0])
+                filter_.Update()
+                self.assertEqual([len(texts[event]) for event in ("WarningEvent", "MessageEvent")], [1, 1])
+
     def test_integers_of_windows(self):
         """NumPy 1 makes 32-bit integers there."""
         made = {name: getattr(np, name) for name in ("arange", "array")}

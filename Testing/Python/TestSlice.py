@@ -58,10 +58,12 @@ class Values(unittest.TestCase):
         with self.assertWarnsRegex(RuntimeWarning, '"masked" is not finite at [0-9]+ of [0-9]+ points'):
             sliced = slice_samples(POSITIONS.astype(np.float32), "z", arrays={
                 "lacking": lacking, "byte": np.rint(255 * POSITIONS[:, 2]).astype(np.uint8),
-                "masked": np.ma.masked_less(POSITIONS[:, 0], 0.4)})
+                "masked": np.ma.masked_less(POSITIONS[:, 0], 0.4),
+                "short": np.ma.masked_less(np.arange(20000, dtype=np.int16), 9),
+                "long": np.ma.masked_less(np.arange(20000), 9)})
         found = sliced.arrays
         self.assertEqual([sliced.points.dtype, *(each.dtype for each in found.values())],
-                         [np.float32, np.float32, np.uint8, float])
+                         [np.float32, np.float32, np.uint8, float, np.float32, float])
         np.testing.assert_allclose(found["lacking"], wave(sliced.points), atol=0.02)
         np.testing.assert_allclose(found["byte"], 127.5, atol=1.6)
         for dtype in (np.int8, np.uint16, np.int64, np.uint64):
