@@ -337,8 +337,8 @@ private:
     constexpr std::size_t nearPart = 3;
     constexpr std::size_t earlyPart = 16;
     constexpr std::size_t manyForSample = 100;
-    const std::size_t early = std::max(
-      this->Most / earlyPart, manyForSample * (this->triangulation().size() + newCount));
+    const std::size_t early =
+      std::max(this->Most / earlyPart, manyForSample * (this->triangulation().size() + newCount));
     return std::min(this->Most / nearPart, early);
   }
 
