@@ -155,7 +155,10 @@ def grids_of_chosen_arrays_without_errors():
 
 def spreadsheets_hide_splats():
     """Unless the user shows their columns."""
-    hidden = list(simple.CreateView("SpreadSheetView").HiddenColumnLabels)
+    former, sheet = simple.GetActiveView(), simple.CreateView("SpreadSheetView")
+    hidden = list(sheet.HiddenColumnLabels)
+    simple.Delete(sheet)
+    simple.SetActiveView(former)
     check(hidden == ["Block Number"] + [name + end for name in ("SplatAxis", "SplatPolygon")
                                         for end in ("", "_Magnitude")], f"hidden: {hidden}")
 
