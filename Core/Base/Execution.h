@@ -119,12 +119,15 @@ inline void forRanges(
 /// Called after each batch with the share of the items that are done.
 using BatchDone = std::function<void(double share)>;
 
+/// A default BatchDone. Not a lambda, whose name would differ among source files: some would not
+/// link.
+inline void ignoreShare(double /*share*/) {}
+
 /// forRanges() in batches; checks for an abort after each one.
 /// @param batchPerThread items of a batch per thread
 /// @throws Aborted, and whatever `task` throws
-inline void forBatches(
-  const Execution& execution, std::size_t count, std::size_t batchPerThread, std::size_t grain,
-  const RangeTask& task, const BatchDone& batchDone = [](double) {})
+inline void forBatches(const Execution& execution, std::size_t count, std::size_t batchPerThread,
+  std::size_t grain, const RangeTask& task, const BatchDone& batchDone = ignoreShare)
 {
   const std::size_t batch = batchPerThread * execution.threads;
   for (std::size_t done = 0; done < count; done += batch)
@@ -140,9 +143,8 @@ inline void forBatches(
 /// thread.
 /// @throws Aborted, and whatever `work` throws
 template <class Work>
-void forEachIndex(
-  const Execution& execution, std::size_t count, const Work& work,
-  const BatchDone& batchDone = [](double) {})
+void forEachIndex(const Execution& execution, std::size_t count, const Work& work,
+  const BatchDone& batchDone = ignoreShare)
 {
   constexpr std::size_t grain = 4096;
   forBatches(
@@ -186,9 +188,8 @@ struct ItemBatches
 /// @param makeWorker() called from any thread, when all workers are in use
 /// @throws Aborted, and whatever `makeWorker` and `work` throw
 template <class MakeWorker, class Work>
-void forEachItem(
-  const Execution& execution, const ItemBatches& batches, const MakeWorker& makeWorker,
-  const Work& work, const BatchDone& batchDone = [](double) {})
+void forEachItem(const Execution& execution, const ItemBatches& batches,
+  const MakeWorker& makeWorker, const Work& work, const BatchDone& batchDone = ignoreShare)
 {
   using Worker = std::decay_t<decltype(makeWorker())>;
   std::vector<std::unique_ptr<Worker>> idle;

@@ -97,9 +97,8 @@ std::vector<T> joined(const Execution& execution, const std::vector<std::vector<
 /// @param collect(begin, end, found) appends the elements of a range; called from any thread
 /// @throws Aborted, std::bad_alloc, and whatever `collect` throws
 template <class T, class Collect>
-std::vector<T> collected(
-  const Execution& execution, const ItemBatches& batches, const Collect& collect,
-  const BatchDone& batchDone = [](double) {})
+std::vector<T> collected(const Execution& execution, const ItemBatches& batches,
+  const Collect& collect, const BatchDone& batchDone = ignoreShare)
 {
   std::map<std::size_t, std::vector<T>> lists; // by the first item of their range
   std::mutex mutex;
@@ -130,9 +129,8 @@ std::vector<T> collected(
 /// most microseconds
 /// @throws Aborted, std::bad_alloc, and whatever `collect` throws
 template <class T, class Collect>
-std::vector<T> collectedFromEach(
-  const Execution& execution, std::size_t count, const Collect& collect,
-  const BatchDone& batchDone = [](double) {})
+std::vector<T> collectedFromEach(const Execution& execution, std::size_t count,
+  const Collect& collect, const BatchDone& batchDone = ignoreShare)
 {
   constexpr std::size_t grain = 4096;
   return collected<T>(
@@ -179,9 +177,8 @@ std::vector<std::size_t> itemsThat(
 /// Collective.
 /// @param ranks SingleRank or SharedRanks
 template <class TRanks, class IsWanted>
-std::vector<std::size_t> itemsThat(
-  const Execution& execution, TRanks& ranks, std::size_t count, const IsWanted& isWanted,
-  const BatchDone& batchDone = [](double) {})
+std::vector<std::size_t> itemsThat(const Execution& execution, TRanks& ranks, std::size_t count,
+  const IsWanted& isWanted, const BatchDone& batchDone = ignoreShare)
 {
   constexpr std::size_t grain = 256;
   std::vector<char> marks(count, 0);

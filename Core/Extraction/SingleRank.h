@@ -39,9 +39,8 @@ public:
   /// repeated once these are fetched.
   /// @param work(worker, item) must have no effect if it throws MissingNode
   template <class MakeWorker, class Work>
-  void forEach(
-    const Execution& execution, const ItemBatches& batches, const MakeWorker& makeWorker,
-    const Work& work, const BatchDone& batchDone = [](double) {}) const
+  void forEach(const Execution& execution, const ItemBatches& batches, const MakeWorker& makeWorker,
+    const Work& work, const BatchDone& batchDone = ignoreShare) const
   {
     forEachItem(execution, batches, makeWorker, work, batchDone);
   }

@@ -55,9 +55,8 @@ public:
   }
 
   template <class MakeWorker, class Work>
-  void forEach(
-    const Execution& execution, const ItemBatches& batches, const MakeWorker& makeWorker,
-    const Work& work, const BatchDone& batchDone = [](double) {})
+  void forEach(const Execution& execution, const ItemBatches& batches, const MakeWorker& makeWorker,
+    const Work& work, const BatchDone& batchDone = ignoreShare)
   {
     std::vector<std::size_t> items = iota(batches.count);
     std::vector<MissingNode> missing;

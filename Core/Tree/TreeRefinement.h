@@ -139,9 +139,8 @@ void splitToBuckets(
 /// @param batchDone called while items are examined; repeated after nodes were split
 /// @throws as splitFurther()
 template <class TSample, class AddUnsplit>
-void splitWhileUnsplit(
-  const Execution& execution, SampleTree<TSample>& tree, std::size_t count,
-  const AddUnsplit& addUnsplit, const BatchDone& batchDone = [](double) {})
+void splitWhileUnsplit(const Execution& execution, SampleTree<TSample>& tree, std::size_t count,
+  const AddUnsplit& addUnsplit, const BatchDone& batchDone = ignoreShare)
 {
   std::vector<std::size_t> unsplit;
   do
