@@ -8,7 +8,8 @@ from paraview import simple
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet
 
 from scripting import (
-    check, contoured, load, messages, named, number_of_points, offered_arrays, path_of, produced, run, updated, vtk_data)
+    check, contoured, load, messages, named, number_of_points, offered_arrays, path_of, produced, run, updated,
+    vtk_data)
 
 load(sys.argv[1])
 FILTERS = simple.ScatteredIsopoints, simple.ScatteredIsosurface
@@ -118,7 +119,8 @@ def arrays_that_describe_isopoints_are_not_the_default():
 
 def ranges_are_finite():
     """Of the isovalue and its default, also after its button for the default was pressed."""
-    data = lattice("POINTS", value=lambda p: np.where(p[:, 0] == 0, np.inf, np.where(p[:, 0] == 1, np.nan, distance(p))))
+    data = lattice(
+        "POINTS", value=lambda p: np.where(p[:, 0] == 0, np.inf, np.where(p[:, 0] == 1, np.nan, distance(p))))
     for create in FILTERS:
         isopoints = create(Input=produced(data))
         values = isopoints.SMProxy.GetProperty("ContourValues")

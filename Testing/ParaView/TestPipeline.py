@@ -63,7 +63,8 @@ def values_at_places():
     gradient = updated(simple.ScatteredGradient(Input=READER))
     check(list(gradient.ScalarArray)[1] in ("r", "gaps"), "the array of the gradient")
     check(gradient.PointData["Gradient"].GetNumberOfComponents() == 3, "its gradient")
-    probe = updated(simple.ScatteredProbe(Samples=READER, DestinationMesh=simple.Sphere(Radius=0.5, ThetaResolution=50)))
+    probe = updated(
+        simple.ScatteredProbe(Samples=READER, DestinationMesh=simple.Sphere(Radius=0.5, ThetaResolution=50)))
     least, greatest = probe.PointData["r"].GetRange()
     check(0.499 < least < greatest < 0.501, f"distances on a sphere: {least}, {greatest}")
     check(probe.NumberOfSamples == 40000, "counters")

@@ -47,7 +47,8 @@ for name in ("points", "surface", "probe", "line", "grid", "gradient", "slice", 
     points = data.GetPoints().GetData() if data.IsA("vtkPointSet") else None
     arrays = [data.GetPointData().GetArray(i) for i in range(data.GetPointData().GetNumberOfArrays())]
     print("found:", name, data.GetNumberOfPoints(), data.GetBounds(), *(
-        hashlib.sha256(vtk_to_numpy(array)).hexdigest()[:16] for array in (points, *(arrays if name != "points" else ()))
+        hashlib.sha256(vtk_to_numpy(array)).hexdigest()[:16]
+        for array in (points, *(arrays if name != "points" else ()))
         if array))
     names = [n for n in source.ListProperties() if n not in (
         "Input", "Samples", "DestinationMesh", "UseGlobalController", "AreSplatsApart")]

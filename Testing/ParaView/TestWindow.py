@@ -9,8 +9,8 @@ import xml.etree.ElementTree as ElementTree
 
 import playing
 from playing import (
-    ADVANCED, APPLY, FOLDER, FRAME, LOAD, SCRIPT, VIEWS, WINDOW, Mouse, check, choose, event, expect, expect_of, play_script,
-    run, run_script, search, set_isovalue, set_property, set_radius_scale)
+    ADVANCED, APPLY, FOLDER, FRAME, LOAD, SCRIPT, VIEWS, WINDOW, Mouse, check, choose, event, expect, expect_of,
+    play_script, run, run_script, search, set_isovalue, set_property, set_radius_scale)
 
 PLUGIN, PARAVIEW, PVBATCH, FILTER_XML = sys.argv[1:]
 NAMES = "Scattered Isopoints", "Scattered Isosurface"
@@ -41,7 +41,8 @@ def rows_follow_others():
     for name, own in zip(NAMES, (
             [expect("NumberOfNeighbors", "enabled")],
             [expect("Regularize", "visible")])):
-        play([choose(name), expect("DropGaps", "visible"), expect("isopoint_counts", "visible", "false"), ADVANCED, expect("KeepTree", "visible"),
+        play([choose(name), expect("DropGaps", "visible"), expect("isopoint_counts", "visible", "false"), ADVANCED,
+              expect("KeepTree", "visible"),
               expect("ContourBlocks", "visible", "false"), expect("NormalMethod", "enabled"), *own,
               set_property("ComputeNormals", "false"), expect("NormalMethod", "enabled", "false"), APPLY], WAVELET)
     play([choose(NAMES[0]), ADVANCED, expect("ContourBlocks", "visible"), APPLY],
