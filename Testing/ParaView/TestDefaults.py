@@ -255,5 +255,6 @@ def panel():
 
 run(the_array_of_an_input, arrays_without_isosurfaces_are_not_offered, triangles_are_saved_as_stl,
     arrays_that_describe_isopoints_are_not_the_default, ranges_are_finite, grids_of_chosen_arrays_without_errors,
-    spreadsheets_hide_splats, input_matters_rather_than_the_active_source, isovalue_follows_the_array, arrays_may_come_later,
+    spreadsheets_hide_splats, input_matters_rather_than_the_active_source, isovalue_follows_the_array,
+    arrays_may_come_later,
     properties_may_outlive_proxies, panel)

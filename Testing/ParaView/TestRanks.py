@@ -327,7 +327,8 @@ class RanksTest(RanksTestCase):
         for filter_, verb in (
                 (set_all(vtkScatteredProbeFilter(), InputData=cloud_of(uniform(5, 1)), SourceData=samples,
                          Interpolation=RANK), "probe"),
-                *((set_all(vtkScatteredSliceFilter(), InputData=samples, CutFunction=function), "slice") for function in (
+                *((set_all(vtkScatteredSliceFilter(), InputData=samples, CutFunction=function), "slice")
+                  for function in (
                     set_all(vtkSphere(), Center=(0.5, 0.5, 0.5), Radius=0.3 + 1e-6 * RANK),
                     set_all(vtkPlane(), Normal=(1, 2 + RANK, 3)), set_all(vtkPlane(), Origin=(0, 0, 0.1 * RANK))))):
             errors = []
