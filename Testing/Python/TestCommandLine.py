@@ -275,8 +275,8 @@ class CommandLine(unittest.TestCase):
             ("contour head_open.csv T 5", 1, "a quote in line 1 is not closed"),
             ("contour long.csv T 5", 1, "a quote in line 2 is not closed"),
             ("probe nan.csv --grid 2,2,2", 1, "No sample has a finite position"),
-            ("probe a.csv --grid 99999999,99999999,9999", 1, r"--grid 99999999,99999999,9999 would give 1e\+20 points, .*"
-             " at most 2147483647: choose fewer$"),
+            ("probe a.csv --grid 99999999,99999999,9999", 1,
+             r"--grid 99999999,99999999,9999 would give 1e\+20 points, .* at most 2147483647: choose fewer$"),
             ("probe a.csv --line 0,0,0 1,0,0 --resolution 1000000000000000", 1, "Out of memory. Free memory"),
             ("contour a.csv T 0.3 --columns x,y,x", 1, "columns x, y, x are not different"),
             ("contour a.csv T 0.3 --columns x,y,q", 1, 'no "q": .* there are x, y, z, T$'),
