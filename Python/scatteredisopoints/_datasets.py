@@ -211,9 +211,9 @@ def samples_with_arrays(data: Any, names: Sequence[str], associations: tuple[int
                     " give them in separate calls.")
         for name in (each for each in names if each in lacking):
             if (found := _find(leaf, name, associations, SCALARS)) is not None:
-                _block(leaf, *found, are_values=False)  # raises an error that says what is wrong
+                _block(leaf, *found, are_values=False, marks_text=True)  # raises an error that says what is wrong
         named = f"array named {_quoted(each for each in names if each in lacking)}" if names else "array of numbers"
-        return f"The input has no {_elements(associations)} {named}. {_choice_of(leaf)}"
+        return f"The input has no {_elements(associations)} {named}. {_choice_of(leaf, True)}"
 
     return _gathered(data, block_of, describe)
 
@@ -327,12 +327,13 @@ def _elements(associations: tuple[int, ...]) -> str:
     return " or ".join(("point", "cell")[association] for association in sorted(associations))
 
 
-def _choice_of(leaf: Any) -> str:
-    """The remedy for a wrong array: lists those of a data set."""
+def _choice_of(leaf: Any, marks_text: bool = False) -> str:
+    """The remedy for a wrong array: lists those of a data set, perhaps with a mark at those of text, which the messages
+    of filters do not have."""
 
     def names(attributes: Any) -> str:
         found = [attributes.GetArrayName(i) for i in range(attributes.GetNumberOfArrays())]
-        of_text = _names_of_text(attributes)
+        of_text = _names_of_text(attributes) if marks_text else ()
         return ", ".join(f"{each} (text)" if each in of_text else each or "(unnamed)"
                          for each in found if each != "vtkGhostType") or "none"
 
@@ -342,12 +343,13 @@ def _choice_of(leaf: Any) -> str:
     return f"Choose a scalar array; the point arrays are: {of_points}; the cell arrays are: {of_cells}."
 
 
-def _block(leaf: Any, association: int, scalars: Any, are_values: bool = True) -> DataSamples:
+def _block(leaf: Any, association: int, scalars: Any, are_values: bool = True, marks_text: bool = False
+           ) -> DataSamples:
     name, count = "values", leaf.GetNumberOfElements(association)
     if not (scalars is None or isinstance(scalars, np.ndarray)):
         name = scalars.GetName() or ""
         if not hasattr(scalars, "GetDataTypeSize") or not scalars.IsA("vtkDataArray"):
-            raise TypeError(f'The array "{name}" holds no numbers. {_choice_of(leaf)}')
+            raise TypeError(f'The array "{name}" holds no numbers. {_choice_of(leaf, marks_text)}')
         if are_values and scalars.GetNumberOfComponents() != 1:
             raise ValueError(f'The array "{name}" has {scalars.GetNumberOfComponents()} components,'
                              " but a scalar array has one. Compute a component or the magnitude first.")

@@ -170,9 +170,8 @@ def number_of(name: str, value: Any, default: Any) -> Any:
         return int(switch(name, value))
     constants = CONSTANTS.get(name, {})
     is_projection = name == "projection"
-    kind = "a real number" if isinstance(default, float) else "a whole number"
-    if constants:
-        kind = _listed([*constants, *["none"] * is_projection])
+    names = [*constants, "none"] if is_projection else constants
+    kind = _listed(names) if constants else "a real number" if isinstance(default, float) else "a whole number"
     error = ValueError(f"{name} cannot be {shown(value)}: it is {kind}")
     if is_projection and (value is None or isinstance(value, str) and value.lower() == "none"):
         value = "no_projection"
