@@ -3,10 +3,10 @@
  * @class   vtkSMIsopointRangeDomain
  * @brief   a finite range whose default follows the array
  *
- * The range is that of the array's finite values. The default isovalue is the middle of the array's range, as with vtkSMArrayRangeDomain. If
- * another array is chosen while the isovalue is the default, or an array comes where there was
- * none, it becomes the middle of the new range. Other isovalues, those of a loaded state, and all
- * if only the data change, are kept.
+ * The range is that of the array's finite values. The default isovalue is the middle of the array's
+ * range, as with vtkSMArrayRangeDomain. If another array is chosen while the isovalue is the
+ * default, or an array comes where there was none, it becomes the middle of the new range. Other
+ * isovalues, those of a loaded state, and all if only the data change, are kept.
  *
  * The required properties are those of vtkSMArrayRangeDomain: "Input", "ArraySelection".
  */
