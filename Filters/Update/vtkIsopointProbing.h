@@ -70,8 +70,8 @@ public:
   };
   std::vector<Array> ProbeAll(const std::vector<isopoint::Vector>& places,
     const isopoint::ProbeOptions& options, const std::set<std::string>* chosen,
-    const std::vector<std::string>& nearest,
-    const std::set<std::string>& own, bool isOutsideHidden, std::vector<std::uint8_t>& kinds);
+    const std::vector<std::string>& nearest, const std::set<std::string>& own, bool isOutsideHidden,
+    std::vector<std::uint8_t>& kinds);
 
   /// The chosen array of the samples, perhaps without a name.
   /// @throws isopoint::UsageError if blocks have different numbers of components
