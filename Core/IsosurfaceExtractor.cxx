@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <type_traits>
 
 namespace isopoint
 {
@@ -47,6 +49,20 @@ void multiplyLengths(const Execution& execution, ExtractedIsosurface& result, in
     });
 }
 
+/// The spacing of samples spread evenly in a box; 0 if it is one position, or without samples.
+double spacingIn(const Region& box, std::size_t count)
+{
+  if (count == 0)
+  {
+    return 0.0;
+  }
+  Vector sides = box.upper - box.lower;
+  std::sort(sides.begin(), sides.end(), std::greater<>());
+  const double share = 1.0 / static_cast<double>(count);
+  return std::max({ sides[0] * share, std::sqrt(sides[0] * sides[1] * share),
+    std::cbrt(sides[0] * sides[1] * sides[2] * share) });
+}
+
 } // namespace
 
 void IsosurfaceExtractor::clear()
@@ -67,13 +83,27 @@ std::size_t IsosurfaceExtractor::skippedCount() const
   return std::visit([](const auto& cloud) { return cloud.tree.skipped; }, this->Cloud);
 }
 
-bool IsosurfaceExtractor::hasFloatPositions() const
+double IsosurfaceExtractor::spacingInFloatSteps() const
 {
   return std::visit(
     [](const auto& cloud)
     {
       using Sample = std::decay_t<decltype(cloud.tree.samples[0])>;
-      return std::is_same_v<typename Sample::Coordinate, float>;
+      const Region& box = cloud.tree.region;
+      const double spacing = spacingIn(box, cloud.tree.samples.size());
+      if (!std::is_same_v<typename Sample::Coordinate, float> || spacing == 0.0)
+      {
+        return unbounded;
+      }
+      double step = 0.0;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        const auto farthest =
+          static_cast<float>(std::max(std::abs(box.lower[axis]), std::abs(box.upper[axis])));
+        step = std::max<double>(
+          step, std::nextafter(farthest, std::numeric_limits<float>::infinity()) - farthest);
+      }
+      return spacing / step;
     },
     this->Cloud);
 }

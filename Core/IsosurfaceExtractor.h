@@ -137,8 +137,11 @@ public:
   /// The number of items left out.
   std::size_t skippedCount() const;
 
-  /// Whether positions are held as float.
-  bool hasFloatPositions() const;
+  /// The spacing of the samples on all ranks in steps of float at their coordinates, along the axis
+  /// of the coarsest steps: below 1, float32 does not tell neighbors apart. The spacing is that of
+  /// as many samples spread evenly in their box, without the sides of it that are shorter than
+  /// that. Infinity if positions are not held as float, or all are the same.
+  double spacingInFloatSteps() const;
 
   /// The least and greatest value of the samples in use on all ranks; +infinity, -infinity if none.
   std::pair<double, double> valueRange() const;

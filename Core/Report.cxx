@@ -153,12 +153,35 @@ bool isInRange(const Report& report, double isovalue)
 
 using Reason = std::pair<Message::Code, std::string>;
 
+/// Whether float is too coarse for the positions of samples: it moves them by a part of their
+/// spacing, or many coincide.
+bool areRounded(const Report& report)
+{
+  constexpr double fewSteps = 2.0;
+  constexpr double fewStepsIfMeeting = 10.0;
+  constexpr std::uint64_t minShare = 10;
+  const bool areMeeting = minShare * report.coincident > report.pointCount();
+  return usedCount(report) >= fewestSamples &&
+         report.spacingInFloatSteps < (areMeeting ? fewStepsIfMeeting : fewSteps);
+}
+
+Reason reasonOfRounding()
+{
+  return { Message::RoundedPositions,
+    "positions so far from the origin are rounded to float32. Give positions as double, or subtract"
+    " an offset before they become float32." };
+}
+
 /// Why an isovalue in the range has no surface, and the remedy.
 Reason reasonOfEmptyIsovalue(const Report& report, bool isInGaps, OptionNaming naming)
 {
   if (usedCount(report) < fewestSamples)
   {
     return { Message::TooFewSamples, describeTooFew(report) };
+  }
+  if (areRounded(report))
+  {
+    return reasonOfRounding();
   }
   if (isInGaps)
   {
@@ -218,14 +241,21 @@ Message describeSlices(const Report& report, OptionNaming naming)
   // Up to rounding, as by a box in the bounds of the samples.
   constexpr double rounding = 1e-9;
   const double outermost = greatest - (rounding * greatest - rounding * least);
+  const bool isEmpty = report.pointCount() == 0;
   const std::string remedy = " Move it among the samples; make a box or a sphere smaller.";
+  if (areRounded(report))
+  {
+    const auto [code, reason] = reasonOfRounding();
+    return isEmpty ? Message{ "empty slice", "No slice: " + reason, Message::Warning, code }
+                   : Message{};
+  }
   if (isAny(outermost, greatest, 1))
   {
     return { "outermost slice",
       "The slice is only where samples are on it, as no sample is beyond it." + remedy,
       Message::Note, Message::OnlyAtSamples };
   }
-  if (report.pointCount() > 0)
+  if (!isEmpty)
   {
     return {};
   }
@@ -282,7 +312,7 @@ std::vector<Message> describeIsovalues(const Report& report, OptionNaming naming
     const double value = report.isovalues[i];
     if (report.points[i] == 0)
     {
-      std::vector<double>& inside = report.dropped[i] > 0 ? inGaps : empty;
+      std::vector<double>& inside = report.dropped[i] > 0 && !areRounded(report) ? inGaps : empty;
       (isInRange(report, value) ? inside : outside).push_back(value);
     }
   }
@@ -303,41 +333,21 @@ std::vector<Message> describeIsovalues(const Report& report, OptionNaming naming
     describeEmptyIsovalues(shown, empty, false, naming) };
 }
 
-/// Whether float is too coarse for the positions of samples around the surface: many coincide.
-bool areRounded(const Report& report)
+/// Of a surface; messages about isovalues without one name the cause themselves.
+Message describeRounded(const Report& report)
 {
-  constexpr std::uint64_t minShare = 10;
-  if (!report.areFloatPositions || minShare * report.coincident <= report.pointCount())
+  if (report.pointCount() == 0 || !areRounded(report))
   {
-    return false;
+    return {};
   }
-  double farthest = 0.0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    farthest =
-      std::max({ farthest, std::abs(report.box.lower[axis]), std::abs(report.box.upper[axis]) });
-  }
-  const double step = farthest * static_cast<double>(std::numeric_limits<float>::epsilon());
-  const double spacing = lengthOf(report.box.upper - report.box.lower) /
-                         std::sqrt(static_cast<double>(report.pointCount()));
-  constexpr double fewSteps = 10.0; // in the spacing of points
-  return fewSteps * step > spacing;
+  const auto [code, reason] = reasonOfRounding();
+  return { "rounded positions", "The surface is inaccurate: " + reason, Message::Warning, code };
 }
 
 /// Samples at one position, if this is likely to matter and is not as expected.
 Message describeCoincident(const Report& report)
 {
-  const std::string at = " at " + std::to_string(report.coincident) + " of " +
-                         std::to_string(report.pointCount()) + " points";
-  if (areRounded(report))
-  {
-    return { "rounded positions: " + tenths(report.coincident, report.pointCount()),
-      "Samples coincide" + at +
-        ", because positions so far from the origin are rounded to float32. Give positions as"
-        " double, or subtract an offset before they become float32.",
-      Message::Warning, Message::RoundedPositions };
-  }
-  if (report.differing == 0 || report.subject != Report::Isosurface)
+  if (report.differing == 0 || report.subject != Report::Isosurface || areRounded(report))
   {
     return {};
   }
@@ -384,7 +394,7 @@ Message describeCornersApart(const Report& report)
   constexpr std::uint64_t minShare = 10;
   constexpr std::uint64_t minCorners = 1000; // the share of fewer is not significant
   if (report.innerCorners < minCorners || minShare * report.cornersApart <= report.innerCorners ||
-      areMostUnprojected(report))
+      areMostUnprojected(report) || areRounded(report))
   {
     return {};
   }
@@ -518,7 +528,7 @@ void Report::countSamples(const IsosurfaceExtractor& extractor, const CloudCount
   const auto [lowest, highest] = extractor.valueRange();
   this->least = std::min(this->least, lowest);
   this->greatest = std::max(this->greatest, highest);
-  this->areFloatPositions = this->areFloatPositions || extractor.hasFloatPositions();
+  this->spacingInFloatSteps = std::min(this->spacingInFloatSteps, extractor.spacingInFloatSteps());
 }
 
 void Report::countCoincident(const ExtractedIsosurface& extracted, std::size_t isopoint)
@@ -549,13 +559,9 @@ void Report::countSurface(std::size_t isovalue, const ExtractedIsosurface& surfa
   for (std::size_t i = 0; i < surface.surface.size(); ++i)
   {
     const Vector& p = surface.surface.positions[i];
-    if (isHere(i))
+    if (isHere(i) && !surface.surface.coincident.empty())
     {
-      this->box = united(this->box, { p, p });
-      if (!surface.surface.coincident.empty())
-      {
-        this->countCoincident(surface, i);
-      }
+      this->countCoincident(surface, i);
     }
     const double farthest = std::max({ std::abs(p[0]), std::abs(p[1]), std::abs(p[2]) });
     const double radius = surface.splats.empty() ? 0.0 : surface.splats[i].radius;
@@ -602,8 +608,7 @@ void Report::add(const Report& other)
   this->least = std::min(this->least, other.least);
   this->greatest = std::max(this->greatest, other.greatest);
   this->areSinglePoints = this->areSinglePoints || other.areSinglePoints;
-  this->areFloatPositions = this->areFloatPositions || other.areFloatPositions;
-  this->box = united(this->box, other.box);
+  this->spacingInFloatSteps = std::min(this->spacingInFloatSteps, other.spacingInFloatSteps);
   this->contoursBlocks = this->contoursBlocks || (before > 0 && other.samples > 0);
 }
 
@@ -616,14 +621,11 @@ void Report::share(ProcessGroup& processes)
   {
     *count = processes.sum(*count);
   }
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    this->box.lower[axis] = fromOrderedKey(~processes.maximum(~orderedKey(this->box.lower[axis])));
-    this->box.upper[axis] = fromOrderedKey(processes.maximum(orderedKey(this->box.upper[axis])));
-  }
   this->SampleCounts::share(processes);
   this->least = fromOrderedKey(~processes.maximum(~orderedKey(this->least)));
   this->greatest = fromOrderedKey(processes.maximum(orderedKey(this->greatest)));
+  this->spacingInFloatSteps =
+    fromOrderedKey(~processes.maximum(~orderedKey(this->spacingInFloatSteps)));
 }
 
 std::vector<Message> describeReport(const Report& report, OptionNaming naming)
@@ -634,6 +636,7 @@ std::vector<Message> describeReport(const Report& report, OptionNaming naming)
       ? "There is no surface. Choose another array, or mend the positions."
       : "There is no surface. Mend the positions.",
     "The surface there is that of the samples around."));
+  messages.push_back(describeRounded(report));
   messages.push_back(describeCoincident(report));
   messages.push_back(describeUnprojected(report, naming));
   messages.push_back(describeCornersApart(report));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "Core/Base/Region.h"
 #include "Core/ExtractionRequest.h"
 #include "Core/Options.h"
 
@@ -105,9 +104,7 @@ struct Report : SampleCounts
   bool areProjected = false;            // whether fits were to move points
   bool areSinglePoints = false;         // whether positions become float
   bool contoursBlocks = false;          // whether several blocks are clouds of their own
-  bool areFloatPositions = false;       // of samples, as held
-  bool hadSurface = false;              // whether a filter had points in an earlier update
-  Region box = emptyRegion;             // of the points
+  bool hadSurface = false;              // whether the same input had points in an earlier update
   std::uint64_t coincident = 0;         // points at the edge of several samples at one position
   std::uint64_t differing = 0;          // those of these with different values
   std::uint64_t unprojectedPoints = 0;  // not moved by a fit
@@ -120,6 +117,8 @@ struct Report : SampleCounts
   /// The range of the values in use; empty without any.
   double least = std::numeric_limits<double>::infinity();
   double greatest = -std::numeric_limits<double>::infinity();
+  /// The least of clouds, see IsosurfaceExtractor::spacingInFloatSteps().
+  double spacingInFloatSteps = std::numeric_limits<double>::infinity();
 
   /// All counts are 0. @throws std::bad_alloc
   Report() = default;

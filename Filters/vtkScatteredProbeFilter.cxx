@@ -4,6 +4,7 @@
 #include "Input/vtkIsopointBlocks.h"
 #include "Input/vtkIsopointGhosts.h"
 #include "Output/vtkIsopointPlaces.h"
+#include "Update/vtkIsopointNames.h"
 #include "Update/vtkIsopointProbing.h"
 #include "Update/vtkIsopointUpdate.h"
 
@@ -47,19 +48,16 @@ void vtkScatteredProbeFilter::SetSourceConnection(vtkAlgorithmOutput* output)
 
 void vtkScatteredProbeFilter::AddNearestArray(const char* name)
 {
-  std::vector<std::string>& names = this->NearestArrays;
-  if (name && std::find(names.begin(), names.end(), name) == names.end())
+  if (vtkAddIsopointName(this->NearestArrays, name))
   {
-    names.emplace_back(name);
     this->Modified();
   }
 }
 
 void vtkScatteredProbeFilter::ClearNearestArrays()
 {
-  if (!this->NearestArrays.empty())
+  if (vtkClearIsopointNames(this->NearestArrays))
   {
-    this->NearestArrays.clear();
     this->Modified();
   }
 }
@@ -71,8 +69,7 @@ int vtkScatteredProbeFilter::GetNumberOfNearestArrays()
 
 const char* vtkScatteredProbeFilter::GetNearestArray(int i)
 {
-  const bool exists = i >= 0 && i < this->GetNumberOfNearestArrays();
-  return exists ? this->NearestArrays[static_cast<std::size_t>(i)].c_str() : nullptr;
+  return vtkGetIsopointName(this->NearestArrays, i);
 }
 
 const isopoint::SampleCounts& vtkScatteredProbeFilter::GetSampleCounts() const
@@ -207,12 +204,7 @@ void vtkScatteredProbeFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Interpolation: " << this->Interpolation << "\n";
-  os << indent << "NearestArrays:";
-  for (const std::string& name : this->NearestArrays)
-  {
-    os << " " << name;
-  }
-  os << "\n";
+  vtkPrintIsopointNames(os, indent, "NearestArrays", this->NearestArrays);
   os << indent << "NullPointsStrategy: " << this->NullPointsStrategy << "\n";
   os << indent << "NullValue: " << this->NullValue << "\n";
   os << indent << "ValidPointsMaskArrayName: " << this->ValidPointsMaskArrayName << "\n";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "vtkScatteredSliceFilter.h"
 
+#include "Update/vtkIsopointNames.h"
 #include "Update/vtkIsopointOptions.h"
 #include "Update/vtkIsopointSlicing.h"
 
@@ -42,19 +43,16 @@ vtkImplicitFunction* vtkScatteredSliceFilter::GetCutFunction()
 
 void vtkScatteredSliceFilter::AddNearestArray(const char* name)
 {
-  std::vector<std::string>& names = this->NearestArrays;
-  if (name && std::find(names.begin(), names.end(), name) == names.end())
+  if (vtkAddIsopointName(this->NearestArrays, name))
   {
-    names.emplace_back(name);
     this->Modified();
   }
 }
 
 void vtkScatteredSliceFilter::ClearNearestArrays()
 {
-  if (!this->NearestArrays.empty())
+  if (vtkClearIsopointNames(this->NearestArrays))
   {
-    this->NearestArrays.clear();
     this->Modified();
   }
 }
@@ -66,8 +64,7 @@ int vtkScatteredSliceFilter::GetNumberOfNearestArrays()
 
 const char* vtkScatteredSliceFilter::GetNearestArray(int i)
 {
-  const bool exists = i >= 0 && i < this->GetNumberOfNearestArrays();
-  return exists ? this->NearestArrays[static_cast<std::size_t>(i)].c_str() : nullptr;
+  return vtkGetIsopointName(this->NearestArrays, i);
 }
 
 vtkMTimeType vtkScatteredSliceFilter::GetMTime()
@@ -101,10 +98,5 @@ void vtkScatteredSliceFilter::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "CutFunction: " << this->CutFunction.Get() << "\n";
   os << indent << "Interpolation: " << this->Interpolation << "\n";
-  os << indent << "NearestArrays:";
-  for (const std::string& name : this->NearestArrays)
-  {
-    os << " " << name;
-  }
-  os << "\n";
+  vtkPrintIsopointNames(os, indent, "NearestArrays", this->NearestArrays);
 }

@@ -65,7 +65,7 @@ isopoint_status isopoint_set_samples(isopoint_extractor* extractor, const isopoi
         extractor->makeExecution(), nullptr, extractor->Extractor, types, read.count(), read);
       extractor->Types = types;
       extractor->Counts = read.counts();
-      extractor->Excluded = read.excludedItems();
+      extractor->Skipped = read.skippedItems(extractor->Extractor.skippedCount());
       extractor->HasSamples = true;
       extractor->HasValues = values != nullptr;
     });

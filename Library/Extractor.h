@@ -15,7 +15,7 @@ struct isopoint_extractor
   isopoint::IsosurfaceExtractor Extractor;
   isopoint::SampleTypes Types;
   isopoint::CloudCounts Counts;
-  isopoint::ExcludedItems Excluded;
+  isopoint::SkippedItems Skipped;
   std::string Name;        // of the values
   bool AreNegated = false; // in the view of the user
   bool HasSamples = false; // even if all are skipped
@@ -27,7 +27,7 @@ struct isopoint_extractor
   {
     this->Extractor.clear();
     this->Counts = {};
-    this->Excluded.reset();
+    this->Skipped.reset();
     this->HasSamples = this->HasValues = false;
   }
 

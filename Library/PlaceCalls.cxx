@@ -32,7 +32,7 @@ isopoint_status isopoint_probe(isopoint_extractor* extractor, const isopoint_arr
       const std::vector<isopoint::Vector> all = isopoint::placesFrom(places);
       const isopoint::ProbeOptions chosen = isopoint::probeOptionsFrom(options);
       const auto probed = isopoint::probedArrays(arrays, array_count, results,
-        extractor->Counts.items, extractor->Excluded, all.size(), chosen);
+        extractor->Counts.items, extractor->Skipped, all.size(), chosen);
       if (flags)
       {
         isopoint::requireMemory(flags, flags_size, "flags", all.size(), 1);
@@ -55,7 +55,7 @@ isopoint_status isopoint_find_neighborhoods(isopoint_extractor* extractor,
       *neighborhoods = new isopoint_neighborhoods{ own,
         extractor->Extractor.findNeighborhoods(
           execution, isopoint::placesFrom(places), isopoint::probeOptionsFrom(options)),
-        static_cast<std::size_t>(extractor->Counts.items), extractor->Excluded };
+        static_cast<std::size_t>(extractor->Counts.items), extractor->Skipped };
     });
 }
 
@@ -82,7 +82,7 @@ isopoint_status isopoint_probe_neighborhoods(const isopoint_neighborhoods* neigh
     {
       const isopoint::Neighborhoods& found = neighborhoods->found;
       const auto probed = isopoint::probedArrays(arrays, array_count, results,
-        neighborhoods->sampleCount, neighborhoods->excluded, found.places.size(), found.options);
+        neighborhoods->sampleCount, neighborhoods->skipped, found.places.size(), found.options);
       if (flags)
       {
         isopoint::requireMemory(flags, flags_size, "flags", found.kinds.size(), 1);

@@ -46,16 +46,16 @@ T numberAs(double number)
   return isInside ? static_cast<T>(number) : T{ 0 };
 }
 
-/// The range of a component in the samples that are not excluded. O(samples)
+/// The range of a component in the samples in use. O(samples)
 template <class T>
 std::pair<double, double> rangeOf(
-  const ArrayReader& reader, const ExcludedItems& excluded, int component)
+  const ArrayReader& reader, const SkippedItems& skipped, int component)
 {
   T least = std::numeric_limits<T>::max();
   T greatest = std::numeric_limits<T>::lowest();
   for (std::size_t id = 0; id < reader.count(); ++id)
   {
-    if (!excluded || !(*excluded)[id])
+    if (!skipped || !(*skipped)[id])
     {
       const T number = reader.at<T>(id, component);
       least = std::min(least, number);
@@ -66,7 +66,7 @@ std::pair<double, double> rangeOf(
 }
 
 ProbedArray probedArray(const isopoint_array& array, const isopoint_probe_result& result,
-  std::size_t sampleCount, const ExcludedItems& excluded, std::size_t placeCount,
+  std::size_t sampleCount, const SkippedItems& skipped, std::size_t placeCount,
   const ProbeOptions& options)
 {
   const ArrayReader reader(&array, "values");
@@ -93,7 +93,7 @@ ProbedArray probedArray(const isopoint_array& array, const isopoint_probe_result
       if (!std::is_floating_point_v<T>)
       {
         probed.range = foundOnce(reader.components(),
-          [reader, excluded](int component) { return rangeOf<T>(reader, excluded, component); });
+          [reader, skipped](int component) { return rangeOf<T>(reader, skipped, component); });
       }
       if (keepsType)
       {
@@ -169,7 +169,7 @@ ProbeOptions probeOptionsFrom(const isopoint_probe_options* given)
 }
 
 std::vector<ProbedArray> probedArrays(const isopoint_array* arrays, std::int64_t count,
-  const isopoint_probe_result* results, std::size_t sampleCount, const ExcludedItems& excluded,
+  const isopoint_probe_result* results, std::size_t sampleCount, const SkippedItems& skipped,
   std::size_t placeCount, const ProbeOptions& options)
 {
   if (count < 0)
@@ -184,8 +184,7 @@ std::vector<ProbedArray> probedArrays(const isopoint_array* arrays, std::int64_t
   std::vector<ProbedArray> probed;
   for (std::int64_t i = 0; i < count; ++i)
   {
-    probed.push_back(
-      probedArray(arrays[i], results[i], sampleCount, excluded, placeCount, options));
+    probed.push_back(probedArray(arrays[i], results[i], sampleCount, skipped, placeCount, options));
   }
   return probed;
 }

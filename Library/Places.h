@@ -15,14 +15,14 @@
 namespace isopoint
 {
 
-/// Which samples the caller excluded; null: none.
-using ExcludedItems = std::shared_ptr<const std::vector<bool>>;
+/// Which samples are not in use, excluded or not finite; null: none.
+using SkippedItems = std::shared_ptr<const std::vector<bool>>;
 
 /// The arguments of isopoint_probe(), checked. @throws UsageError
 std::vector<Vector> placesFrom(const isopoint_array* places);
 ProbeOptions probeOptionsFrom(const isopoint_probe_options* given);
 std::vector<ProbedArray> probedArrays(const isopoint_array* arrays, std::int64_t count,
-  const isopoint_probe_result* results, std::size_t sampleCount, const ExcludedItems& excluded,
+  const isopoint_probe_result* results, std::size_t sampleCount, const SkippedItems& skipped,
   std::size_t placeCount, const ProbeOptions& options);
 
 } // namespace isopoint
@@ -32,7 +32,7 @@ struct isopoint_neighborhoods
   isopoint::Execution execution;
   isopoint::Neighborhoods found;
   std::size_t sampleCount;
-  isopoint::ExcludedItems excluded;
+  isopoint::SkippedItems skipped;
 
   /// See isopoint_get_weights(). @throws isopoint::UsageError, std::bad_alloc
   isopoint_weights weights();

@@ -6,6 +6,7 @@
 #include "Library/Arrays.h"
 #include "Library/Places.h"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -69,17 +70,20 @@ public:
     return counts;
   }
 
-  /// @throws std::bad_alloc
-  ExcludedItems excludedItems() const
+  /// @param count of the samples that the tree left out. @throws std::bad_alloc
+  SkippedItems skippedItems(std::size_t count) const
   {
-    if (!this->Excluded)
+    if (count == 0)
     {
       return nullptr;
     }
     std::vector<bool> items(this->count());
     for (std::size_t id = 0; id < items.size(); ++id)
     {
-      items[id] = this->isExcluded(id);
+      Vector position;
+      double value = 0.0;
+      items[id] =
+        !(*this)(id, position.data(), value) || !isFinite(position) || !std::isfinite(value);
     }
     return std::make_shared<const std::vector<bool>>(std::move(items));
   }

@@ -329,7 +329,7 @@ typedef enum isopoint_place_flag
  * give turned results. Its values exceed the range of the samples around only at extrema that these
  * show.
  * Integers are assumed to be rounded. Values of an array of integers stay within the range of each
- * component in the samples that are not excluded. With ISOPOINT_PROBE_NEAREST, as for ids, they get
+ * component in the samples in use. With ISOPOINT_PROBE_NEAREST, as for ids, they get
  * `outside_number` without its fraction, or 0 if their type cannot hold it.
  *
  * Cost: O(log n) for each place after O(n) for the first, except where very many samples have the
@@ -448,9 +448,9 @@ typedef enum isopoint_message_code
   ISOPOINT_MESSAGE_BEYOND_FLOAT = 10,      /* float cannot hold positions or splats */
   ISOPOINT_MESSAGE_NO_ISOVALUES = 11,      /* no surface: there are no isovalues */
   ISOPOINT_MESSAGE_ONLY_AT_SAMPLES = 12,   /* a slice is only where samples are on it; not a warning */
-  ISOPOINT_MESSAGE_ROUNDED_POSITIONS = 13, /* samples coincide, since float32 rounds their positions */
+  ISOPOINT_MESSAGE_ROUNDED_POSITIONS = 13, /* float32 is too coarse for positions so far from the origin */
   ISOPOINT_MESSAGE_DIFFERENT_VALUES = 14,  /* samples at one position have different values; not a warning */
-  ISOPOINT_MESSAGE_ISOVALUE_AT_END = 15    /* no surface: they are the least or greatest value; a warning if there is none at all */
+  ISOPOINT_MESSAGE_ISOVALUE_AT_END = 15    /* no surface: at an end of the values; a warning if there is none at all */
 } isopoint_message_code;
 
 /* A message for the user about a result, such as skipped samples or an isovalue without a surface:

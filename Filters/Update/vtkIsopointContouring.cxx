@@ -40,7 +40,10 @@ void vtkIsopointContouring::Run(const vtkIsopointOptions& options, vtkInformatio
     vtkDataObject::GetData(outputInfo),
     [this]()
     {
-      this->HadSurface = this->HadSurface || this->Report.pointCount() > 0;
+      if (this->Report.pointCount() > 0)
+      {
+        this->SurfaceOf = this->State;
+      }
       this->Report = isopoint::Report();
     },
     [&]() { this->Extract(inputInfo, inputArray, outputInfo); },
@@ -92,7 +95,8 @@ void vtkIsopointContouring::StartCounting(const std::vector<double>& isovalues)
     blocks.GetBlocks().empty() ? nullptr : blocks.GetBlocks().front().Scalars->GetName();
   counts.array = name ? name : "";
   counts.contoursBlocks = this->Options.ContourBlocks && blocks.GetBlocks().size() > 1;
-  counts.hadSurface = this->HadSurface;
+  this->State = blocks.GetState(0, blocks.GetBlocks().size());
+  counts.hadSurface = !this->State.empty() && this->State == this->SurfaceOf;
   this->Report = std::move(counts);
 }
 

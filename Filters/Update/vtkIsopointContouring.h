@@ -5,6 +5,7 @@
 #include "Core/Base/Execution.h"
 #include "Core/ExtractionRequest.h"
 #include "Core/Report.h"
+#include "Input/vtkIsopointInputState.h"
 #include "Update/vtkIsopointOptions.h"
 
 #include <cstddef>
@@ -51,11 +52,12 @@ private:
 
   vtkIsopointUpdate& Update;
   isopoint::Report Report;
-  bool HadSurface = false; // in an earlier update
+  vtkIsopointInputState SurfaceOf; // the input of earlier updates, if they had a surface
 
   // Of the present update.
   vtkIsopointOptions Options;
-  int GhostLevels = 0; // requested of the output
+  int GhostLevels = 0;         // requested of the output
+  vtkIsopointInputState State; // of the input
 };
 
 #endif

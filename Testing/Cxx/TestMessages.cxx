@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <tuple>
 
 using namespace inputtesting;
 
@@ -165,6 +166,24 @@ TEST(Messages, EndsOfTheRangeAreNotesBesideASurface)
     EXPECT_EQ(notes->count(), 1u);
     EXPECT_EQ(warnings->count(), 2u) << "beyond the end";
 
+    const auto other = newCloud(500);
+    least->SetValue(0, distancesOf(other)->GetRange()[0]);
+    least->SetInputData(other);
+    least->Update();
+    EXPECT_EQ(notes->count(), 1u);
+    EXPECT_EQ(warnings->count(), 3u) << "an input that had no surface";
+    least->SetValue(0, 0.5);
+    least->Update();
+    least->SetValue(0, distancesOf(other)->GetRange()[0]);
+    least->Update();
+    EXPECT_EQ(notes->count(), 2u);
+    distancesOf(other)->SetValue(3, 0.0);
+    distancesOf(other)->Modified();
+    least->SetValue(0, 0.0);
+    least->Update();
+    EXPECT_EQ(notes->count(), 2u);
+    EXPECT_EQ(warnings->count(), 4u) << "other values had a surface";
+
     const auto several = bothFilters(cloud)[kind];
     const auto warningsOfSeveral = watchMessages(several, vtkCommand::WarningEvent);
     const auto notesOfSeveral = watchMessages(several, vtkCommand::MessageEvent);
@@ -217,8 +236,66 @@ TEST(Messages, PositionsThatFloatRoundsAreNamed)
         EXPECT_TRUE(messagesOf(filter).empty());
         continue;
       }
-      expectOneWarning(
-        filter, { "Samples coincide at ", "float32", "double", "subtract an offset" });
+      expectOneWarning(filter, { "inaccurate: positions so far from the origin", "float32",
+                                 "double", "subtract an offset" });
+    }
+  }
+}
+
+/// Floats of northings have steps of half a meter, those of heights tiny ones: samples do not
+/// coincide, but have few distinct northings.
+TEST(Messages, CoarseStepsOfOneAxisAreNamed)
+{
+  const std::vector<std::tuple<Vector, double, int>> cubes{
+    { { 5e5, 5.4e6, 0.0 }, 1.0, VTK_FLOAT },
+    { { 5e5, 5.4e6, 0.0 }, 2.0, VTK_FLOAT },
+    { { 5e5, 5.4e6, 0.0 }, 0.5, VTK_FLOAT },
+    { { 3.3e6, 5.5e6, 100.0 }, 0.5, VTK_FLOAT },
+    { { 3.3e6, 5.5e6, 100.0 }, 0.1, VTK_FLOAT }, // in one plane
+    { { 5e5, 5.4e6, 0.0 }, 1.0, VTK_DOUBLE },
+    { { 5e5, 5.4e6, 0.0 }, 100.0, VTK_FLOAT },
+    { { 0.0, 0.0, 0.0 }, 1e-6, VTK_FLOAT },
+  };
+  for (std::size_t i = 0; i < cubes.size(); ++i)
+  {
+    const auto& [origin, size, type] = cubes[i];
+    const auto cloud = newCloud(2000, type);
+    const Vector& offset = origin;
+    const double half = 0.5 * size;
+    move(cloud->GetPoints(),
+      [&](const Vector& p) {
+        return Vector{ offset[0] + half * p[0], offset[1] + half * p[1], offset[2] + half * p[2] };
+      });
+    for (const auto& filter : bothFilters(cloud))
+    {
+      SCOPED_TRACE(filter->GetClassName() + std::to_string(i));
+      if (i > 4)
+      {
+        EXPECT_TRUE(messagesOf(filter).empty());
+        continue;
+      }
+      expectOneWarning(filter,
+        { "positions so far from the origin are rounded to float32. Give positions as double" });
+    }
+  }
+}
+
+/// A plane, a line and one position have no spacing along some axes.
+TEST(Messages, FlatCloudsNearTheOriginAreNotRounded)
+{
+  for (const Vector& scale : { Vector{ 1.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 }, { 0.0, 0.0, 0.0 } })
+  {
+    const auto cloud = newCloud(2000);
+    move(cloud->GetPoints(),
+      [&](const Vector& p) {
+        return Vector{ scale[0] * p[0] + 1.0, scale[1] * p[1] + 1.0, scale[2] * p[2] + 1.0 };
+      });
+    for (const auto& filter : bothFilters(cloud))
+    {
+      for (const std::string& message : messagesOf(filter))
+      {
+        EXPECT_EQ(message.find("float32"), std::string::npos) << message;
+      }
     }
   }
 }

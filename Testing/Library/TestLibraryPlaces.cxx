@@ -205,11 +205,11 @@ TEST(Library, TheNearestSampleKeepsItsType)
   EXPECT_GE(found(ISOPOINT_PROBE_OUTSIDE_EXTRAPOLATE, NAN), numbers[0]);
 }
 
-/// Also where the same numbers leave it as double, and from neighborhoods. Excluded samples do not
-/// widen it.
+/// Also where the same numbers leave it as double, and from neighborhoods. Samples that are
+/// excluded, or without a finite position, do not widen it.
 TEST(Library, IntegersStayWithinTheRangeOfTheirSamples)
 {
-  const Cloud cloud;
+  Cloud cloud;
   std::vector<std::int32_t> numbers;
   std::vector<double> reals;
   std::vector<std::uint8_t> excluded;
@@ -219,7 +219,11 @@ TEST(Library, IntegersStayWithinTheRangeOfTheirSamples)
     numbers.push_back(x < 0.0 ? -100 : 100);
     reals.push_back(numbers.back());
     excluded.push_back(i % 7 == 0 ? 1 : 0);
-    if (excluded.back() != 0)
+    if (i % 7 == 1)
+    {
+      cloud.positions[3 * i] = NAN;
+    }
+    if (i % 7 < 2)
     {
       numbers.back() = 1000000;
     }
