@@ -86,7 +86,7 @@ public:
       this->Run, fragments.size(), [&](std::size_t i) { this->IsInGap[fragments[i]] = 1; });
   }
 
-  /// Whether an element was a seed or beside a marked one. Those that are not marked are not weak.
+  /// Whether an element was a seed or beside a marked one. Unmarked ones are not weak.
   bool isReached(std::size_t element) const { return this->IsReached[element] != 0; }
 
   /// By element, whether it is marked. Moved out.

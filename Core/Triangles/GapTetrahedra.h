@@ -203,7 +203,7 @@ private:
                                   : this->Edges.rejectedAmong(GapCriterion::strong(), some);
   }
 
-  /// Those that may be strong.
+  /// The tetrahedra that may be strong.
   std::vector<std::size_t> candidates()
   {
     const std::vector<char> isDense = this->denseLeaves();

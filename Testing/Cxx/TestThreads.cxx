@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Threads: where one cannot be started the others do its work, and what is computed together stays
-// within the quota of a container.
+// Threads: if one cannot start, the others do its work; all stay within the quota of a container.
 #include "FailingAllocator.h"
 
 #include "Core/Base/Threads.h"
