@@ -139,7 +139,8 @@ def search_finds_each_filter_once():
         check(any(each.startswith(name.replace(" ", "")) for each in shown), f"{name} was created: {shown}")
     cloud = "Surface (isosurface) of a cloud of samples"
     shown, _ = play([each for words, found in (
-        ("vorticity", "Vorticity of samples"), ("streamline", "Streamlines of samples, by an image"), ("cloud of", cloud),
+        ("vorticity", "Vorticity of samples"), ("streamline", "Streamlines of samples, by an image"),
+        ("cloud of", cloud),
         ("surface", cloud)) for each in (*search(PARAVIEW, words, found, are_all=False), APPLY)], WAVELET)
     names = "ScatteredGradient1", "ScatteredGrid1", "ScatteredIsosurface1", "ScatteredIsosurface2"
     check(set(names) <= set(shown), f"filters were created: {shown}")
